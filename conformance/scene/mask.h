@@ -1,0 +1,66 @@
+// Coverage masks: one bit per sample.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "conformance/scene/setting.h"
+
+namespace edgecase::conformance {
+
+/// How a mask lies in memory: rows top to bottom, each padded with zero bits to whole 64-bit words; sample s of the pixel
+/// in column x is bit x * samples + s of its row, counted from the least significant bit of the row's first word.
+struct MaskLayout {
+  Extent target;
+  int samples = 1;
+
+  explicit MaskLayout(const Setting& setting) : target(setting.target), samples(setting.samples()) {}
+
+  std::size_t row_words() const {
+    return (static_cast<std::size_t>(target.width) * static_cast<std::size_t>(samples) + 63) / 64;
+  }
+  std::size_t words() const { return row_words() * static_cast<std::size_t>(target.height); }
+  /// Samples of one mask; the bits that are not padding.
+  std::size_t sample_count() const {
+    return static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height) *
+           static_cast<std::size_t>(samples);
+  }
+  std::size_t bit(int x, int y, int sample) const {
+    return static_cast<std::size_t>(y) * row_words() * 64 +
+           static_cast<std::size_t>(x) * static_cast<std::size_t>(samples) + static_cast<std::size_t>(sample);
+  }
+  friend bool operator==(const MaskLayout&, const MaskLayout&) = default;
+};
+
+/// Words of one mask in some MaskLayout, owned elsewhere.
+using MaskView = std::span<const std::uint64_t>;
+using MutableMaskView = std::span<std::uint64_t>;
+
+inline bool covered(MaskView mask, std::size_t bit) { return (mask[bit / 64] >> (bit % 64) & 1) != 0; }
+inline void cover(MutableMaskView mask, std::size_t bit) { mask[bit / 64] |= std::uint64_t{1} << (bit % 64); }
+
+/// Masks of equal layout, one after the other: mask i is that of triangle i.
+class MaskBatch {
+ public:
+  /// Resizes to `count` masks. What they hold afterwards is unspecified: writers write every word.
+  void reset(const MaskLayout& layout, std::size_t count) {
+    words_ = layout.words();
+    count_ = count;
+    data_.resize(words_ * count);
+  }
+  std::size_t size() const { return count_; }
+  MaskView operator[](std::size_t i) const { return {data_.data() + i * words_, words_}; }
+  MutableMaskView operator[](std::size_t i) { return {data_.data() + i * words_, words_}; }
+  std::span<std::uint64_t> data() { return data_; }
+  std::span<const std::uint64_t> data() const { return data_; }
+
+ private:
+  std::size_t words_ = 0;
+  std::size_t count_ = 0;
+  std::vector<std::uint64_t> data_;
+};
+
+}  // namespace edgecase::conformance

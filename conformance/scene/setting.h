@@ -1,0 +1,48 @@
+// Everything of a scene but its geometry: where coverage is asked for, and which rules decide it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace edgecase::conformance {
+
+/// Size of a render target in pixels, each from 1 to 16,384.
+struct Extent {
+  int width = 0;
+  int height = 0;
+  friend bool operator==(const Extent&, const Extent&) = default;
+};
+
+inline constexpr int kMaxTargetExtent = 16384;
+
+/// Where a sample lies in its pixel, in sixteenths of a pixel from the pixel's top-left corner; each from 0 to 15.
+struct SampleLocation {
+  int x = 8;
+  int y = 8;
+  friend bool operator==(const SampleLocation&, const SampleLocation&) = default;
+};
+
+inline constexpr int kSampleGridBits = 4;
+
+/// How a window coordinate that lies between two points of the subpixel grid is moved to one of them.
+/// Ties are coordinates exactly half way. `nearest_even` is what the D3D11.3 functional specification, 3.2.4.1, asks for.
+enum class SnapRounding { nearest_even, half_up, half_away, truncate };
+
+/// What the specifications leave open and a rasterizer has to choose.
+struct Rules {
+  /// Fraction bits of a window coordinate, 0 to 16. D3D11 demands 8; Vulkan and OpenGL at least 4.
+  int subpixel_bits = 8;
+  SnapRounding rounding = SnapRounding::nearest_even;
+  friend bool operator==(const Rules&, const Rules&) = default;
+};
+
+/// The target and its samples. The same locations hold in every pixel; their number is the sample count.
+struct Setting {
+  Extent target{32, 32};
+  std::vector<SampleLocation> sample_locations{SampleLocation{}};
+
+  int samples() const { return static_cast<int>(sample_locations.size()); }
+  friend bool operator==(const Setting&, const Setting&) = default;
+};
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,48 @@
+// Subject: a rasterizer under test.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "conformance/scene/error.h"
+#include "conformance/scene/mask.h"
+#include "conformance/scene/scene.h"
+
+namespace edgecase::conformance {
+
+/// What a subject says of itself; drivers are asked, not assumed.
+struct SubjectInfo {
+  /// The name on the command line: `lavapipe`, `edgecase:scalar`, `fault:truncate`.
+  std::string name;
+  /// The device and version as the subject itself reports them; empty for ours.
+  std::string device;
+  /// The snap that this subject declares; expectations are computed with it.
+  Rules rules;
+  std::vector<int> sample_counts{1};
+  int max_target = kMaxTargetExtent;
+  /// Window coordinates from -max_coordinate to +max_coordinate reach the rasterizer exactly.
+  double max_coordinate = 0;
+};
+
+class Subject {
+ public:
+  virtual ~Subject() = default;
+
+  virtual const SubjectInfo& info() const = 0;
+
+  /// Why this scene lies outside what the subject can do, in one phrase; nothing if it can be drawn.
+  virtual std::optional<std::string> refusal(const Scene& scene) const;
+
+  /// Draws every triangle of `scene` on its own into `masks`, which it resizes: mask i holds exactly the samples that
+  /// triangle i covered. Called only for scenes that are not refused.
+  virtual tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) = 0;
+};
+
+/// The subject of that name, ready to draw, or why there is none (ErrorKind::absent for a driver that is not installed,
+/// ErrorKind::bad_input for a name that no subject has; the message then proposes the nearest).
+tl::expected<std::unique_ptr<Subject>, Error> make_subject(const std::string& name);
+
+}  // namespace edgecase::conformance
