@@ -1,0 +1,22 @@
+// The append functions of the generators; see their files for what each makes and why.
+#pragma once
+
+#include "conformance/generators/lattice.h"
+#include "conformance/generators/random.h"
+#include "conformance/scene/scene.h"
+
+namespace edgecase::conformance::families {
+
+using Append = void(const Lattice& lattice, Random& random, Scene& scene);
+
+Append fan;
+Append grid;
+Append triangulation;
+Append strip;
+Append refinement;
+Append uniform;
+Append ties;
+Append sliver;
+Append tiny;
+
+}  // namespace edgecase::conformance::families

@@ -1,0 +1,35 @@
+// Generators: seed and index in, scenes out. The same arguments give the same triangles on every machine, and scene i
+// needs none of the scenes before it, so that a run can be streamed, split, resumed, and any one scene drawn again.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "conformance/generators/lattice.h"
+#include "conformance/generators/random.h"
+#include "conformance/scene/scene.h"
+
+namespace edgecase::conformance {
+
+struct Generator {
+  std::string_view name;
+  std::string_view category;
+  std::string_view about;
+  /// Target and samples that the scenes are made for.
+  Setting setting;
+  /// Appends one scene: its triangles, and a Mesh for each set of them that is watertight. Vertices lie on `lattice`.
+  void (*append)(const Lattice& lattice, Random& random, Scene& scene);
+};
+
+/// All generators, in the order in which they are listed and run.
+std::span<const Generator> generators();
+
+/// The generator of that name, or null.
+const Generator* find_generator(std::string_view name);
+
+/// Appends scene number `index` of `generator` for a rasterizer with `scene.rules.subpixel_bits`, at least 1, to
+/// `scene`, whose setting must be the generator's.
+void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene);
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <utility>
+
+#include "conformance/generators/families.h"
+
+namespace edgecase::conformance::families {
+namespace {
+
+// Either winding and every rotation comes up: no generator that uses this favours an order of vertices.
+void append(const Lattice& lattice, Random& random, LatticePoint a, LatticePoint b, LatticePoint c, Scene& scene) {
+  if (random.one_in(2)) std::swap(b, c);
+  scene.triangles.push_back(lattice.triangle(a, b, c));
+}
+
+}  // namespace
+
+void uniform(const Lattice& lattice, Random& random, Scene& scene) {
+  // One in eight reaches far outside: its edges cross the target with no vertex in it.
+  const std::int64_t margin = random.one_in(8) ? 4 * lattice.width() : lattice.width() / 4;
+  const LatticePoint a = lattice.anywhere(random, margin);
+  const LatticePoint b = lattice.anywhere(random, margin);
+  append(lattice, random, a, b, lattice.anywhere(random, margin), scene);
+}
+
+void ties(const Lattice& lattice, Random& random, Scene& scene) {
+  const std::int64_t half = lattice.half_pixel();
+  const auto point = [&] {
+    const LatticePoint p = lattice.anywhere(random, 2 * lattice.pixel());
+    return LatticePoint{p.x / half * half, p.y / half * half};
+  };
+  const LatticePoint a = point();
+  LatticePoint b = point();
+  const LatticePoint c = point();
+  // A quarter each has a horizontal, a vertical and a diagonal edge: those go through a whole row of centres.
+  switch (random.between(0, 3)) {
+    case 0:
+      b.y = a.y;
+      break;
+    case 1:
+      b.x = a.x;
+      break;
+    case 2:
+      b.y = a.y + (b.x - a.x);
+      break;
+    default:
+      break;
+  }
+  append(lattice, random, a, b, c, scene);
+}
+
+// A long edge between two points, and the third vertex a few lattice units off it. Half of the long edges go exactly
+// through a pixel centre, the rest anywhere.
+void sliver(const Lattice& lattice, Random& random, Scene& scene) {
+  LatticePoint a = lattice.anywhere(random, lattice.pixel());
+  LatticePoint b = lattice.anywhere(random, lattice.pixel());
+  if (random.one_in(2)) {  // b is a mirrored in a centre near the target's middle
+    const LatticePoint centre = lattice.to_centre(lattice.anywhere(random, -lattice.width() / 4));
+    b = {2 * centre.x - a.x, 2 * centre.y - a.y};
+  }
+  const std::int64_t along = random.between(0, 16);
+  const std::int64_t off = random.one_in(2) ? 1 : random.between(1, lattice.half_pixel());
+  const LatticePoint c{a.x + (b.x - a.x) * along / 16 + random.between(-off, off),
+                       a.y + (b.y - a.y) * along / 16 + random.between(-off, off)};
+  if (random.one_in(2)) std::swap(a, b);
+  append(lattice, random, a, b, c, scene);
+}
+
+void tiny(const Lattice& lattice, Random& random, Scene& scene) {
+  const LatticePoint middle =
+      random.one_in(4) ? lattice.anywhere(random, 0) : lattice.to_centre(lattice.anywhere(random, 0));
+  const std::int64_t reach = random.one_in(2) ? 2 : lattice.half_pixel();
+  const auto near = [&] {
+    return LatticePoint{middle.x + random.between(-reach, reach), middle.y + random.between(-reach, reach)};
+  };
+  const LatticePoint a = near();
+  const LatticePoint b = near();
+  append(lattice, random, a, b, near(), scene);
+}
+
+}  // namespace edgecase::conformance::families
