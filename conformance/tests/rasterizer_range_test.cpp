@@ -100,8 +100,8 @@ class Check {
 
 constexpr std::int64_t kLow = -8388608, kHigh = 8388607;  // 16.8
 
-TEST(RasterizerRange, TheCornersOfTheRangeOnTheLargestTarget) {
-  Check<Format16_8> check(16384, 16384);
+void check_the_corners_of_the_range(int width, int height) {
+  Check<Format16_8> check(width, height);
   check.draw({{{kLow, kLow}, {kHigh, kLow}, {kLow, kHigh}}});
   check.expect_exact_rows();
   check.draw({{{kHigh, kHigh}, {kLow, kHigh}, {kHigh, kLow}}});
@@ -109,6 +109,13 @@ TEST(RasterizerRange, TheCornersOfTheRangeOnTheLargestTarget) {
   check.draw({{{kLow, kLow}, {kHigh, kHigh - 1}, {kHigh, kHigh}}});  // a sliver along the diagonal
   check.expect_exact_rows();
 }
+
+TEST(RasterizerRange, TheCornersOfTheRangeOnLargeTargets) {
+  check_the_corners_of_the_range(16384, 512);
+  check_the_corners_of_the_range(512, 16384);
+}
+
+TEST(LongRasterizerRange, TheCornersOfTheRangeOnTheLargestTarget) { check_the_corners_of_the_range(16384, 16384); }
 
 TEST(RasterizerRange, EveryTriangleOfExtremeVertices) {
   Check<Format16_8> check(70, 5);

@@ -122,6 +122,25 @@ TEST(Rasterizer, CompilesToAConstant) {
   static_assert(covered == 6);
 }
 
+TEST(RasterizerBox, HoldsExactlyTheSamplesInTheBoundingBox) {
+  const auto box_of = [](const Triangle& triangle) {
+    FixedTriangle<Format16_8> snapped;
+    EXPECT_FALSE(snap<Format16_8>(triangle, snapped));
+    const auto box = pixel_box<Format16_8>(snapped, *Target::make(10, 6));
+    return box ? std::vector{box->left.value(), box->top.value(), box->right.value(), box->bottom.value()}
+               : std::vector<int>{};
+  };
+  constexpr float kSubpixel = 1.0f / 256;
+  EXPECT_THAT(box_of({{{1.5, 2.5}, {4.5, 3}, {3, 3.5}}}), ElementsAre(1, 2, 5, 4));
+  EXPECT_THAT(box_of({{{1.5f + kSubpixel, 2.5f + kSubpixel}, {4.5f - kSubpixel, 3}, {3, 3.5f - kSubpixel}}}),
+              testing::IsEmpty());
+  EXPECT_THAT(box_of({{{1.5f + kSubpixel, 2.5f - kSubpixel}, {4.5f - kSubpixel, 3}, {3, 3.5f + kSubpixel}}}),
+              ElementsAre(2, 2, 4, 4));
+  EXPECT_THAT(box_of({{{-300, -300}, {3000, 1}, {2, 3000}}}), ElementsAre(0, 0, 10, 6));
+  EXPECT_THAT(box_of({{{-9, 1}, {-1, 1}, {-9, 5}}}), testing::IsEmpty());
+  EXPECT_THAT(box_of({{{1, 6}, {9, 6}, {1, 9}}}), testing::IsEmpty());
+}
+
 TEST(RasterizerList, TheSinkIsToldWhichTriangle) {
   const std::vector<Triangle> triangles{
       {{{0, 0}, {1, 0}, {0, 1.5}}}, {{{5, 5}, {5, 5}, {5, 5}}}, {{{1, 1}, {3, 1}, {1, 3}}}};
