@@ -1,0 +1,109 @@
+#include "conformance/subjects/edgecase_subject.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "rasterizer/rasterizer.h"
+
+namespace edgecase::conformance {
+namespace {
+
+constexpr int kIntegerBits = 16;
+constexpr std::size_t kFormats = 17;  // subpixel bits 0 to 16
+
+rasterizer::Triangle to_rasterizer(const Triangle& triangle) {
+  const auto& [v0, v1, v2] = triangle;
+  return {{{v0.x, v0.y}, {v1.x, v1.y}, {v2.x, v2.y}}};
+}
+
+using Failure = std::optional<rasterizer::InputError>;
+
+template <class F>
+Failure check_range(const Scene& scene) {
+  rasterizer::FixedTriangle<F> snapped;
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
+  }
+  return std::nullopt;
+}
+
+template <class F>
+Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
+  rasterizer::FixedTriangle<F> snapped;
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
+    const auto mask = rasterizer::Mask::over(target, masks[i]);
+    rasterizer::cover_scalar<F>(snapped, target,
+                                [&](int y, int word, std::uint64_t bits) { mask->add(y, word, bits); });
+  }
+  return std::nullopt;
+}
+
+struct FormatEntry {
+  Failure (*check_range)(const Scene&);
+  Failure (*draw_all)(const Scene&, const rasterizer::Target&, MaskBatch&);
+};
+
+template <std::size_t... Bits>
+constexpr std::array<FormatEntry, sizeof...(Bits)> make_formats(std::index_sequence<Bits...>) {
+  return {FormatEntry{&check_range<rasterizer::Format<kIntegerBits, static_cast<int>(Bits)>>,
+                      &draw_all<rasterizer::Format<kIntegerBits, static_cast<int>(Bits)>>}...};
+}
+
+/// Indexed by the subpixel bits.
+constexpr auto kFormatTable = make_formats(std::make_index_sequence<kFormats>());
+
+class EdgecaseSubject : public Subject {
+ public:
+  explicit EdgecaseSubject(std::string name) {
+    info_.name = std::move(name);
+    info_.max_target = rasterizer::kMaxExtent;
+    info_.max_coordinate = 32768.0 - 1.0 / 256;
+  }
+
+  const SubjectInfo& info() const override { return info_; }
+
+  std::optional<std::string> refusal(const Scene& scene) const override {
+    const Setting& setting = scene.setting;
+    if (!rasterizer::Target::make(setting.target.width, setting.target.height)) {
+      return fmt::format("target {}x{} is not from 1 to {} pixels a side", setting.target.width, setting.target.height,
+                         info_.max_target);
+    }
+    if (setting.samples() != 1) return fmt::format("{} samples a pixel", setting.samples());
+    if (setting.sample_locations[0] != SampleLocation{}) return "a sample off the pixel's centre";
+    if (scene.rules.rounding != SnapRounding::nearest_even) return "snaps to nearest even only";
+    const int bits = scene.rules.subpixel_bits;
+    if (bits < 0 || static_cast<std::size_t>(bits) >= kFormats) return fmt::format("{} subpixel bits", bits);
+    if (const auto error = kFormatTable[static_cast<std::size_t>(bits)].check_range(scene)) {
+      return rasterizer::describe(*error);
+    }
+    return std::nullopt;
+  }
+
+  tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override {
+    masks.reset(MaskLayout(scene.setting), scene.triangles.size());
+    std::fill(masks.data().begin(), masks.data().end(), std::uint64_t{0});
+    const auto target = rasterizer::Target::make(scene.setting.target.width, scene.setting.target.height);
+    const auto bits = static_cast<std::size_t>(scene.rules.subpixel_bits);
+    if (const auto error = kFormatTable[bits].draw_all(scene, *target, masks)) {
+      return tl::unexpected(Error{ErrorKind::subject, info_.name + ": " + rasterizer::describe(*error)});
+    }
+    return {};
+  }
+
+ private:
+  SubjectInfo info_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subject> make_edgecase_subject(const std::string& variant) {
+  if (variant.empty()) return std::make_unique<EdgecaseSubject>("edgecase");
+  if (variant == "scalar") return std::make_unique<EdgecaseSubject>("edgecase:scalar");
+  return nullptr;
+}
+
+}  // namespace edgecase::conformance

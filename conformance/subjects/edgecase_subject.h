@@ -1,0 +1,19 @@
+// Our own rasterizer as a subject.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "conformance/subjects/subject.h"
+
+namespace edgecase::conformance {
+
+/// `edgecase` for the variant "", the member of the family that a user of the library gets, and `edgecase:scalar` for
+/// "scalar", the incremental reference; null for any other variant.
+///
+/// Follows the scene's subpixel bits, all of 0 to 16, with 16 integer bits: coordinates that round to a number from
+/// -32768 px to one subpixel below 32768 px. SubjectInfo::max_coordinate is for 8 bits, and for both signs. Snaps to
+/// nearest even only; one sample, in the pixel's centre.
+std::unique_ptr<Subject> make_edgecase_subject(const std::string& variant);
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,34 @@
+#include "conformance/subjects/subject.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgecase::conformance {
+
+std::optional<std::string> Subject::refusal(const Scene& scene) const {
+  const SubjectInfo& self = info();
+  const Extent target = scene.setting.target;
+  if (std::max(target.width, target.height) > self.max_target) {
+    return fmt::format("target {}x{} exceeds {} pixels a side", target.width, target.height, self.max_target);
+  }
+  const int samples = scene.setting.samples();
+  if (std::find(self.sample_counts.begin(), self.sample_counts.end(), samples) == self.sample_counts.end()) {
+    return fmt::format("{} samples a pixel", samples);
+  }
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Position& position = scene.triangles[i][v];
+      for (const auto& [axis, value] : {std::pair{'x', position.x}, std::pair{'y', position.y}}) {
+        if (!(std::abs(value) <= self.max_coordinate)) {
+          return fmt::format("triangle {}, vertex {}: {} = {} lies beyond {} px", i, v, axis, value,
+                             self.max_coordinate);
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,64 @@
+// What is drawn into: the size of a target, and masks of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "rasterizer/int.h"
+
+namespace edgecase::rasterizer {
+
+/// Pixels along one side of a target, at most.
+inline constexpr int kMaxExtent = 16384;
+
+/// A pixel's column or row, or the end of a range of them: 0 to kMaxExtent.
+using PixelIndex = Int<width_of(kMaxExtent)>;
+
+/// The size of a target in pixels, known to be legal.
+class Target {
+ public:
+  /// Nothing unless both are from 1 to kMaxExtent.
+  static constexpr std::optional<Target> make(int width, int height) {
+    if (width < 1 || width > kMaxExtent || height < 1 || height > kMaxExtent) return std::nullopt;
+    return Target(*PixelIndex::checked(width), *PixelIndex::checked(height));
+  }
+
+  constexpr PixelIndex width() const { return width_; }
+  constexpr PixelIndex height() const { return height_; }
+  /// 64-bit words in a row of a mask.
+  constexpr std::size_t row_words() const { return (static_cast<std::size_t>(width_.value()) + 63) / 64; }
+  /// 64-bit words in a mask.
+  constexpr std::size_t mask_words() const { return row_words() * static_cast<std::size_t>(height_.value()); }
+
+ private:
+  constexpr Target(PixelIndex width, PixelIndex height) : width_(width), height_(height) {}
+  PixelIndex width_;
+  PixelIndex height_;
+};
+
+/// A view of a coverage mask, owned by the caller: rows top to bottom, each padded to whole words; the pixel in column
+/// x is bit x % 64, counted from the least significant, of word x / 64 of its row.
+class Mask {
+ public:
+  /// Nothing unless `words` has exactly target.mask_words() words.
+  static constexpr std::optional<Mask> over(Target target, std::span<std::uint64_t> words) {
+    if (words.size() != target.mask_words()) return std::nullopt;
+    return Mask(target, words);
+  }
+
+  constexpr const Target& target() const { return target_; }
+
+  /// Adds up to 64 pixels of row y, beginning at column 64 * word.
+  constexpr void add(int y, int word, std::uint64_t bits) const {
+    words_[static_cast<std::size_t>(y) * target_.row_words() + static_cast<std::size_t>(word)] |= bits;
+  }
+
+ private:
+  constexpr Mask(Target target, std::span<std::uint64_t> words) : target_(target), words_(words) {}
+  Target target_;
+  std::span<std::uint64_t> words_;
+};
+
+}  // namespace edgecase::rasterizer
