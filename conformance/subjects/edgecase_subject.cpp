@@ -61,6 +61,7 @@ class EdgecaseSubject : public Subject {
   explicit EdgecaseSubject(std::string name) {
     info_.name = std::move(name);
     info_.max_target = rasterizer::kMaxExtent;
+    info_.follows_scene_rules = true;
     info_.max_coordinate = 32768.0 - 1.0 / 256;
   }
 

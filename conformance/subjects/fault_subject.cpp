@@ -228,6 +228,7 @@ class FaultSubject : public Subject {
   FaultSubject(Fault fault, std::string_view name) : fault_(fault) {
     info_.name = fmt::format("fault:{}", name);
     info_.sample_counts = {1, 2, 4, 8, 16};
+    info_.follows_scene_rules = true;
     info_.max_coordinate = 32768.0 - 1.0 / 256;
   }
 

@@ -21,6 +21,8 @@ struct SubjectInfo {
   std::string device;
   /// The snap that this subject declares; expectations are computed with it.
   Rules rules;
+  /// Whether it draws under the rules that each scene asks for, rather than always under `rules`.
+  bool follows_scene_rules = false;
   std::vector<int> sample_counts{1};
   int max_target = kMaxTargetExtent;
   /// Window coordinates from -max_coordinate to +max_coordinate reach the rasterizer exactly.
