@@ -39,7 +39,7 @@ struct Rules {
 /// The target and its samples. The same locations hold in every pixel; their number is the sample count.
 struct Setting {
   Extent target{32, 32};
-  std::vector<SampleLocation> sample_locations{SampleLocation{}};
+  std::vector<SampleLocation> sample_locations = std::vector<SampleLocation>(1);  ///< one sample in the centre
 
   int samples() const { return static_cast<int>(sample_locations.size()); }
   friend bool operator==(const Setting&, const Setting&) = default;
