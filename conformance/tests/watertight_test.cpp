@@ -267,11 +267,12 @@ TEST(Watertight, FineGridsAndFarVerticesStayExact) {
 // rows of the target by a quarter of a pixel each, moved along its direction until its ends are 2^39 units away.
 TEST(Watertight, DistanceTakesTheWidePath) {
   const Setting setting{{8, 8}, {SampleLocation{}}};
-  const std::int64_t steps = (std::int64_t{1} << 35) + 12345;
+  const std::int64_t steps = (std::int64_t{1} << 35) + 600'000;
   const GridPoint upper{56 - 4 * steps, -16 * steps};
   const GridPoint lower{56 + 4 * steps, 16 * steps};
   const std::vector<GridTriangle> mesh = {{upper, {upper.x + 16 * steps, upper.y}, lower}};
-  // Its other edge is far to the right of the target; a row's first inside sample is the one right of the slanted edge.
+  // Its other edge is far to the right of the target, where 64 bits would wrap to a crossing on its left; a row's first
+  // inside sample is the one right of the slanted edge.
   std::uint64_t expected = 0;
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 8; ++x) {
