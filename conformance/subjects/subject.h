@@ -25,6 +25,8 @@ struct SubjectInfo {
   bool follows_scene_rules = false;
   std::vector<int> sample_counts{1};
   int max_target = kMaxTargetExtent;
+  /// Whether a scissor rectangle can be set.
+  bool scissor = false;
   /// Window coordinates from -max_coordinate to +max_coordinate reach the rasterizer exactly.
   double max_coordinate = 0;
 };
