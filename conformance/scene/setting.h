@@ -40,6 +40,12 @@ inline constexpr int kSampleGridBits = 4;
 /// for.
 enum class SnapRounding { nearest_even, half_up, half_away, truncate };
 
+/// Which triangles are dropped by the way they face. A triangle of zero area after snapping covers nothing in any case.
+enum class CullMode { none, front, back };
+
+/// Which winding on the screen (y down) is the front of a triangle; decided by the snapped vertices.
+enum class FrontFace { clockwise, counter_clockwise };
+
 /// What the specifications leave open and a rasterizer has to choose.
 struct Rules {
   /// Fraction bits of a window coordinate, 0 to 16. D3D11 demands 8; Vulkan and OpenGL at least 4.
@@ -54,6 +60,8 @@ struct Setting {
   std::vector<SampleLocation> sample_locations = std::vector<SampleLocation>(1);  ///< one sample in the centre
   /// Samples of pixels outside it are never covered. It does not change the target or the layout of its masks.
   std::optional<Rect> scissor{};
+  CullMode cull = CullMode::none;
+  FrontFace front_face = FrontFace::clockwise;
 
   int samples() const { return static_cast<int>(sample_locations.size()); }
   friend bool operator==(const Setting&, const Setting&) = default;
