@@ -129,6 +129,38 @@ std::string wrong_samples(std::uint64_t missing, std::uint64_t unexpected, std::
   return out;
 }
 
+std::string details(const Result& result) {
+  std::string out;
+  const auto append_line = [&](std::string_view line) {
+    if (!line.empty()) out.append(line).append(line.ends_with('\n') ? "" : "\n");
+  };
+  append_line(result.reason);
+  const std::string wrong = wrong_samples(result.missing, result.unexpected, result.doubled);
+  if (!wrong.empty()) {
+    append_line(fmt::format("{} among {} of {}", wrong, counted(result.samples_compared, "sample"),
+                            counted(result.triangles, "triangle")));
+  }
+  if (!result.first) return out;
+  const FirstWrong& first = *result.first;
+  append_line(fmt::format("first: {}: {}", place(first), vertices(first)));
+  append_line(first.text);
+  if (!first.command.empty()) append_line(fmt::format("to see it again: {}", visible_line(first.command)));
+  return out;
+}
+
+std::string place(const FirstWrong& first) {
+  return fmt::format("{} at pixel ({}, {}), sample {}, triangle {}", visible_line(first.kind), first.x, first.y,
+                     first.sample, first.triangle);
+}
+
+std::string vertices(const FirstWrong& first) {
+  std::string out;
+  for (const auto& [x, y] : first.vertices) {
+    out += fmt::format("{}({}, {})", out.empty() ? "" : " ", visible_line(x), visible_line(y));
+  }
+  return out;
+}
+
 std::string grouped(std::uint64_t number) {
   std::string digits = fmt::format("{}", number);
   for (std::size_t i = digits.size(); i > 3;) {

@@ -59,6 +59,16 @@ std::string sentence(const SubjectSummary& subject);
 /// sample that is unexpected in a triangle may be doubled in its mesh as well.
 std::string wrong_samples(std::uint64_t missing, std::uint64_t unexpected, std::uint64_t doubled);
 
+/// What is to be said of one result, line by line: its reason, how many samples are wrong, the first of them and the
+/// command that shows it again. What is not there has no line; names hold no line breaks.
+std::string details(const Result& result);
+
+/// "missing at pixel (12, 7), sample 0, triangle 5".
+std::string place(const FirstWrong& first);
+
+/// "(0x1.8p+0, 0x0p+0) (0x1.8p+0, 0x1.8p+1) (0x1p+2, 0x1.8p+1)".
+std::string vertices(const FirstWrong& first);
+
 /// 1234567 as 1,234,567.
 std::string grouped(std::uint64_t number);
 

@@ -91,22 +91,7 @@ void append_indented(std::string_view text, std::string& out) {
 void append_failure(const Result& result, bool terminal, std::string& out) {
   out += fmt::format("\n{} {}: {}\n", coloured("FAIL", Verdict::fail, terminal), visible_line(result.subject),
                      visible_line(result.testcase));
-  append_indented(result.reason, out);
-  const std::string wrong = wrong_samples(result.missing, result.unexpected, result.doubled);
-  if (!wrong.empty()) {
-    out += fmt::format("  {} among {} of {}\n", wrong, counted(result.samples_compared, "sample"),
-                       counted(result.triangles, "triangle"));
-  }
-  if (!result.first) return;
-  const FirstWrong& first = *result.first;
-  out += fmt::format("  first: {} at pixel ({}, {}), sample {}, triangle {}:", visible_line(first.kind), first.x,
-                     first.y, first.sample, first.triangle);
-  for (const auto& vertex : first.vertices) {
-    out += fmt::format(" ({}, {})", visible_line(vertex[0]), visible_line(vertex[1]));
-  }
-  out += '\n';
-  append_indented(first.text, out);
-  if (!first.command.empty()) out += fmt::format("  to see it again: {}\n", visible_line(first.command));
+  append_indented(details(result), out);
 }
 
 /// The results of a verdict that needs no action, those of one subject with the same reason together.
