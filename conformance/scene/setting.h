@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace edgecase::conformance {
@@ -15,6 +16,16 @@ struct Extent {
 
 inline constexpr int kMaxTargetExtent = 16384;
 
+/// A rectangle of pixels x .. x + width - 1, y .. y + height - 1. It may lie partly or wholly outside the target; with
+/// a width or height of zero or less it holds no pixel.
+struct Rect {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  friend bool operator==(const Rect&, const Rect&) = default;
+};
+
 /// Where a sample lies in its pixel, in sixteenths of a pixel from the pixel's top-left corner; each from 0 to 15.
 struct SampleLocation {
   int x = 8;
@@ -25,8 +36,15 @@ struct SampleLocation {
 inline constexpr int kSampleGridBits = 4;
 
 /// How a window coordinate that lies between two points of the subpixel grid is moved to one of them.
-/// Ties are coordinates exactly half way. `nearest_even` is what the D3D11.3 functional specification, 3.2.4.1, asks for.
+/// Ties are coordinates exactly half way. `nearest_even` is what the D3D11.3 functional specification, 3.2.4.1, asks
+/// for.
 enum class SnapRounding { nearest_even, half_up, half_away, truncate };
+
+/// Which triangles are dropped by the way they face. A triangle of zero area after snapping covers nothing in any case.
+enum class CullMode { none, front, back };
+
+/// Which winding on the screen (y down) is the front of a triangle; decided by the snapped vertices.
+enum class FrontFace { clockwise, counter_clockwise };
 
 /// What the specifications leave open and a rasterizer has to choose.
 struct Rules {
@@ -40,6 +58,10 @@ struct Rules {
 struct Setting {
   Extent target{32, 32};
   std::vector<SampleLocation> sample_locations = std::vector<SampleLocation>(1);  ///< one sample in the centre
+  /// Samples of pixels outside it are never covered. It does not change the target or the layout of its masks.
+  std::optional<Rect> scissor{};
+  CullMode cull = CullMode::none;
+  FrontFace front_face = FrontFace::clockwise;
 
   int samples() const { return static_cast<int>(sample_locations.size()); }
   friend bool operator==(const Setting&, const Setting&) = default;

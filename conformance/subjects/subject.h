@@ -21,8 +21,12 @@ struct SubjectInfo {
   std::string device;
   /// The snap that this subject declares; expectations are computed with it.
   Rules rules;
+  /// Whether it draws under the rules that each scene asks for, rather than always under `rules`.
+  bool follows_scene_rules = false;
   std::vector<int> sample_counts{1};
   int max_target = kMaxTargetExtent;
+  /// Whether a scissor rectangle can be set.
+  bool scissor = false;
   /// Window coordinates from -max_coordinate to +max_coordinate reach the rasterizer exactly.
   double max_coordinate = 0;
 };
