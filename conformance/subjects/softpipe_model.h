@@ -34,9 +34,9 @@
 //     difference has the wrong sign, left and right change places and every span is empty.
 //   - Off the 1/256 grid it covers what the unsnapped triangle covers.
 //
-// Checked against softpipe of Mesa 22.3.6, x86-64: no wrong sample in 3.7 million triangles, 1 to 65 px wide targets,
-// of uniform, lattice (1/256, 1/8, 1/2 and whole pixels), sliver, fan, sub-pixel, far (to 8,192 px) and off-grid
-// families.
+// Checked against softpipe of Mesa 22.3.6, x86-64: no wrong sample in 4.1 million triangles, 1 to 65 px wide targets,
+// of uniform, lattice (1/256, 1/8, 1/2 and whole pixels), sliver, needle, fan, sub-pixel, far (to 8,192 px) and
+// off-grid families.
 #pragma once
 
 #include "conformance/scene/mask.h"

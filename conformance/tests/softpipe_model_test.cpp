@@ -68,6 +68,28 @@ Scene slivers(int side, std::size_t count, unsigned seed) {
   return scene;
 }
 
+// Slivers up to 16,000 px long whose line passes through the target: the products of their area no longer fit a float,
+// so that it comes out as 0, or with the wrong sign.
+Scene needles(int side, std::size_t count, unsigned seed) {
+  Scene scene;
+  scene.setting = square_setting(side);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  while (scene.triangles.size() < count) {
+    const double x = side * unit(random);
+    const double y = side * unit(random);
+    const double angle = 2 * std::numbers::pi * unit(random);
+    const auto at = [&](double along, double off) {
+      return Position{on_grid(x + along * std::cos(angle) - off * std::sin(angle), 1),
+                      on_grid(y + along * std::sin(angle) + off * std::cos(angle), 1)};
+    };
+    const double length = 8000 * unit(random);
+    const double off = random() % 2 == 0 ? 0 : std::exp2(-8 * unit(random));
+    scene.triangles.push_back({at(-length, 0), at(length, 0), at(length * (2 * unit(random) - 1), off)});
+  }
+  return scene;
+}
+
 // All 24 bits of each coordinate in use.
 Scene off_grid(int side, std::size_t count, unsigned seed) {
   Scene scene;
@@ -94,6 +116,7 @@ void expect_every_family_predicted(std::size_t count, unsigned seed) {
     expect_predicted(*softpipe, random_scene(setting, count, side / 2, side / 2 + 1, 1, seed));
     expect_predicted(*softpipe, random_scene(setting, count / 4, -8192, 8192, 1, seed));
     expect_predicted(*softpipe, slivers(side, count, seed));
+    expect_predicted(*softpipe, needles(side, count, seed));
     expect_predicted(*softpipe, off_grid(side, count, seed));
     if (testing::Test::HasFatalFailure()) return;
   }
