@@ -3,7 +3,9 @@
 const form = document.querySelector('form');
 const shown = document.querySelector('output');
 const filtered = [...document.querySelectorAll('[data-subject]')];
-const rows = filtered.filter((element) => element.matches('tr'));
+const sections = document.querySelectorAll('section');
+const tables = [...document.querySelectorAll('.rows')].map((table) => [table, [...table.querySelectorAll('tbody tr')]]);
+const kLine = 34;  // pixels of a usual row: a guess for tables not laid out yet, on which only the scroll bar depends
 
 function filter() {
   const {subject, category, verdict, search} = form.elements;
@@ -13,8 +15,16 @@ function filter() {
     element.hidden = (subject.value !== '' && subject.value !== s) || (category.value !== '' && category.value !== c) ||
         (verdict.value !== '' && verdict.value !== v) || !name.toLowerCase().includes(wanted);
   }
-  const count = rows.filter((row) => !row.hidden).length;
-  shown.textContent = count === rows.length ? `all ${count} results` : `${count} of ${rows.length} results`;
+  for (const section of sections) section.hidden = !section.querySelector('article:not([hidden])');
+  let count = 0, all = 0;
+  for (const [table, rows] of tables) {
+    const left = rows.filter((row) => !row.hidden).length;
+    table.hidden = left === 0;
+    table.style.containIntrinsicHeight = `${(left + 1) * kLine}px`;
+    count += left;
+    all += rows.length;
+  }
+  shown.textContent = count === all ? `all ${all} results` : `${count} of ${all} results`;
 }
 
 form.addEventListener('input', filter);
