@@ -29,6 +29,12 @@ function filter() {
 
 form.addEventListener('input', filter);
 form.addEventListener('submit', (event) => event.preventDefault());
+// What comes into view on the way may prove taller than it was taken for: go there once more when it is laid out.
+function go_to(target) {
+  target.scrollIntoView();
+  requestAnimationFrame(() => requestAnimationFrame(() => target.scrollIntoView()));
+}
+
 document.querySelector('#summary').addEventListener('click', (event) => {
   const cell = event.target.closest('a[data-choose]');
   if (!cell) return;
@@ -36,18 +42,20 @@ document.querySelector('#summary').addEventListener('click', (event) => {
       cell.dataset.choose.split(' ');
   form.elements.search.value = '';
   filter();
+  go_to(document.querySelector('#results'));
 });
+
 // A link to a finding has to lead there even if the filter hides it; a known deviation opens.
 function reveal() {
   const target = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
-  if (!target || !target.matches('article')) return;
-  if (target.hidden) {
+  if (!target) return;
+  if (target.closest('[hidden]')) {
     form.reset();
     filter();
   }
-  const details = target.querySelector('details');
+  const details = target.matches('article') && target.querySelector('details');
   if (details) details.open = true;
-  target.scrollIntoView();
+  go_to(target);
 }
 window.addEventListener('hashchange', reveal);
 form.hidden = false;
