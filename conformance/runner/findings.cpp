@@ -77,13 +77,14 @@ std::string reason(const RunResult& run, const KnownDeviation* deviation) {
   if (outcome.unexplained != 0) {
     return fmt::format("{} of {} triangles are wrong", outcome.triangles.wrong_triangles, outcome.triangles.triangles);
   }
-  return outcome.known_triangles != 0 ? deviation->cause : std::string();
+  if (outcome.known_triangles != 0) return deviation->cause;
+  return trial.own_snap.value_or(std::string());
 }
 
 Verdict verdict(const Trial& trial) {
   if (trial.failure || trial.outcome.unexplained != 0) return Verdict::fail;
   if (trial.skipped) return Verdict::skip;
-  return trial.outcome.known_triangles != 0 ? Verdict::known : Verdict::pass;
+  return trial.outcome.known_triangles != 0 || trial.own_snap ? Verdict::known : Verdict::pass;
 }
 
 }  // namespace
@@ -103,6 +104,7 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   Result result;
   result.subject = run.subject;
   result.device = run.device;
+  result.snap = run.snap;
   result.testcase = run.testcase.name();
   result.category = run.testcase.category();
   result.verdict = verdict(run.trial);

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "conformance/runner/snap_probe.h"
 #include "conformance/subjects/registry.h"
 
 namespace edgecase::conformance {
@@ -21,14 +22,21 @@ tl::expected<Reference, Error> reference_for(const std::string& subject) {
   return Reference(std::move(*fast));
 }
 
+// Ours snap as each scene asks, and what a model predicts in full needs no rule; everybody else is found out.
+tl::expected<Rules, Error> rules_of(Subject& subject, const KnownDeviation* deviation) {
+  if (subject.info().follows_scene_rules || deviation != nullptr) return subject.info().rules;
+  return find_snap(subject);
+}
+
 // What one thread holds to test one subject. Subjects are not shared between threads.
 struct Bench {
   std::unique_ptr<Subject> subject;
+  Rules rules;  ///< what the subject is judged by
   Reference reference;
   Judge judge;
 
-  Bench(std::unique_ptr<Subject> s, Reference r, const KnownDeviation* deviation)
-      : subject(std::move(s)), reference(std::move(r)), judge(*subject, reference, deviation) {}
+  Bench(std::unique_ptr<Subject> s, const Rules& snap, Reference r, const KnownDeviation* deviation)
+      : subject(std::move(s)), rules(snap), reference(std::move(r)), judge(*subject, reference, deviation) {}
 };
 
 class Benches {
@@ -42,8 +50,10 @@ class Benches {
       if (!subject) return tl::unexpected(subject.error());
       auto reference = reference_for(name);
       if (!reference) return tl::unexpected(reference.error());
-      bench = std::make_unique<Bench>(std::move(*subject), std::move(*reference),
-                                      find_known_deviation(plan_.known_deviations, name));
+      const KnownDeviation* deviation = find_known_deviation(plan_.known_deviations, name);
+      auto rules = rules_of(**subject, deviation);
+      if (!rules) return tl::unexpected(rules.error());
+      bench = std::make_unique<Bench>(std::move(*subject), *rules, std::move(*reference), deviation);
     }
     return bench.get();
   }
@@ -62,12 +72,13 @@ void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
   }
   Subject& subject = *(*bench)->subject;
   result.device = subject.info().device;
+  result.snap = describe_snap((*bench)->rules);
   if (result.testcase.file != nullptr) {
-    result.trial = try_case(*result.testcase.file, subject, (*bench)->judge);
+    result.trial = try_case(*result.testcase.file, subject, (*bench)->rules, (*bench)->judge);
     on_progress(result.testcase.file->scene.triangles.size());
   } else {
-    result.trial =
-        try_generator(*result.testcase.generator, subject, (*bench)->judge, {plan.count, plan.seed, on_progress});
+    result.trial = try_generator(*result.testcase.generator, subject, (*bench)->rules, (*bench)->judge,
+                                 {plan.count, plan.seed, on_progress});
   }
 }
 
@@ -89,7 +100,7 @@ tl::expected<std::vector<RunResult>, Error> run(const RunPlan& plan,
 
   std::vector<RunResult> results;
   for (const std::string& subject : plan.subjects) {
-    for (const Testcase& testcase : plan.testcases) results.push_back({subject, {}, testcase, {}});
+    for (const Testcase& testcase : plan.testcases) results.push_back({subject, {}, {}, testcase, {}});
   }
 
   std::mutex progress_mutex;

@@ -28,6 +28,7 @@ struct RunPlan {
 struct RunResult {
   std::string subject;
   std::string device;
+  std::string snap;  ///< how the subject snaps, as found out by drawing
   Testcase testcase;
   Trial trial;
 };

@@ -144,7 +144,8 @@ int run_command(const DataFiles& data, const RunOptions& options) {
   if (auto written = write_files(options, folder, report); !written) return fail(written.error());
 
   fmt::print("{}", to_text(report, isatty(STDOUT_FILENO) == 1));
-  if (anything_to_show && !folder.empty()) fmt::print("Pictures and reproductions: {}\n", (fs::path(folder) / "index.html").string());
+  if (anything_to_show && !folder.empty())
+    fmt::print("Pictures and reproductions: {}\n", (fs::path(folder) / "index.html").string());
   if (std::fflush(stdout) != 0) return fail({ErrorKind::bad_input, "standard output: no space left or closed"});
   const bool failed =
       std::ranges::any_of(report.results, [](const Result& result) { return result.verdict == Verdict::fail; });

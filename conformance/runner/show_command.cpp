@@ -8,6 +8,7 @@
 #include "conformance/runner/case_library.h"
 #include "conformance/runner/commands.h"
 #include "conformance/runner/findings.h"
+#include "conformance/runner/snap_probe.h"
 #include "conformance/runner/testcase.h"
 #include "conformance/subjects/registry.h"
 
@@ -28,7 +29,9 @@ MaskBatch by_the_rules(const Scene& scene) {
 tl::expected<void, Error> add_subject(const Case& file, const std::string& name, Exhibit& exhibit) {
   auto subject = make_subject(name);
   if (!subject) return tl::unexpected(subject.error());
-  auto scene = scene_for(file, (*subject)->info());
+  const bool probed = !(*subject)->info().follows_scene_rules;
+  const auto rules = probed ? find_snap(**subject) : file.scene.rules;
+  auto scene = scene_for(file, (*subject)->info(), rules.value_or((*subject)->info().rules));
   const auto refusal = scene ? (*subject)->refusal(*scene) : scene.error();
   if (refusal)
     return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot draw {}: {}", name, file.name, *refusal)});

@@ -83,30 +83,37 @@ std::vector<std::uint64_t> may_masks(const Case& file, const Scene& scene) {
 
 }  // namespace
 
-tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject) {
+tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules) {
   Scene scene = file.scene;
-  if (subject.follows_scene_rules || scene.rules == subject.rules) return scene;
-  if (!on_grid(scene, scene.rules.subpixel_bits) || !on_grid(scene, subject.rules.subpixel_bits)) {
-    return tl::unexpected(fmt::format("the case needs {} subpixel bits, the subject has {}", scene.rules.subpixel_bits,
-                                      subject.rules.subpixel_bits));
+  if (subject.follows_scene_rules || scene.rules == rules) return scene;
+  if (scene.rules.subpixel_bits == rules.subpixel_bits) {
+    scene.rules = rules;
+    return scene;
   }
-  scene.rules = subject.rules;
+  if (!on_grid(scene, scene.rules.subpixel_bits) || !on_grid(scene, rules.subpixel_bits)) {
+    return tl::unexpected(fmt::format("the case needs {} subpixel bits, the subject has {}", scene.rules.subpixel_bits,
+                                      rules.subpixel_bits));
+  }
+  scene.rules = rules;
   return scene;
 }
 
-Trial try_case(const Case& file, Subject& subject, Judge& judge) {
+Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& judge) {
   const Stopwatch watch;
   const double subject_seconds = subject.driver_seconds();
   Trial trial;
-  auto scene = scene_for(file, subject.info());
+  auto scene = scene_for(file, subject.info(), rules);
   if (!scene) {
     trial.skipped = scene.error();
     return trial;
   }
   trial.skipped = subject.refusal(*scene);
   if (trial.skipped) return trial;
-  if (file.expect) trial.failure = contradiction(file, *scene);
+  if (file.expect) trial.failure = contradiction(file, file.scene);
   if (trial.failure) return trial;
+  if (file.expect && scene->rules != file.scene.rules && contradiction(file, *scene)) {
+    trial.own_snap = "covered as its own way of snapping says, which is not the one that the case expects";
+  }
 
   Batch batch{std::move(*scene), {{0, 0}}, {}};
   batch.may = may_masks(file, batch.scene);
@@ -116,13 +123,14 @@ Trial try_case(const Case& file, Subject& subject, Judge& judge) {
   return trial;
 }
 
-Trial try_generator(const Generator& generator, Subject& subject, Judge& judge, const TrialOptions& options) {
+Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, Judge& judge,
+                    const TrialOptions& options) {
   const Stopwatch watch;
   const double subject_seconds = subject.driver_seconds();
   Trial trial;
   Batch batch;
   batch.scene.setting = generator.setting;
-  batch.scene.rules = subject.info().rules;
+  batch.scene.rules = rules;
   const std::size_t mask_bytes = MaskLayout(generator.setting).words() * sizeof(std::uint64_t);
   const std::size_t full = std::clamp<std::size_t>(kBatchBytes / mask_bytes, 1, kBatchTriangles);
 

@@ -27,6 +27,8 @@ struct Testcase {
 struct Trial {
   Outcome outcome;
   std::optional<std::string> skipped;
+  /// Set if the subject was judged by its own way of snapping because the case's would have it cover other samples.
+  std::optional<std::string> own_snap;
   std::optional<Error> failure;  ///< the subject crashed, or the suite contradicts itself
   double seconds = 0;
   double subject_seconds = 0;  ///< of these, inside the subject's own drawing
@@ -39,12 +41,13 @@ struct TrialOptions {
   std::function<void(std::uint64_t)> on_progress = [](std::uint64_t) {};
 };
 
-/// Runs one testcase against one subject.
-Trial try_case(const Case& file, Subject& subject, Judge& judge);
-Trial try_generator(const Generator& generator, Subject& subject, Judge& judge, const TrialOptions& options);
+/// Runs one testcase against one subject, judged by `rules` unless it follows each scene's own.
+Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& judge);
+Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, Judge& judge,
+                    const TrialOptions& options);
 
-/// The scene of `file` under the rules of `subject`: the case's own for a subject that follows a scene's rules or if
-/// every vertex lies on both grids; otherwise why the case says nothing about this subject.
-tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject);
+/// The scene of `file` under the rules that a subject is judged by: the case's own if it follows each scene's, else
+/// `rules`, if the grid is the same or every vertex lies on both; otherwise why the case says nothing about it.
+tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules);
 
 }  // namespace edgecase::conformance

@@ -101,7 +101,9 @@ class EdgecaseSubject : public Subject {
       return fmt::format("{} samples a pixel", setting.samples());
     }
     if (!sample_pattern(setting)) return "a sample off the sixteenths of a pixel";
-    if (scene.rules.rounding != SnapRounding::nearest_even) return "snaps to nearest even only";
+    if (scene.rules.rounding != SnapRounding::nearest_even || scene.rules.half_pixel_first) {
+      return "snaps to nearest even only";
+    }
     const int bits = scene.rules.subpixel_bits;
     if (bits < 0 || static_cast<std::size_t>(bits) >= kFormats) return fmt::format("{} subpixel bits", bits);
     if (const auto error = kFormatTable[static_cast<std::size_t>(bits)].check_range(scene)) {
