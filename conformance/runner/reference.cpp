@@ -39,8 +39,9 @@ tl::expected<void, Error> Reference::confirm(const Scene& scene, std::size_t ind
   ++confirmed_;
   oracle::cover_by_definition(scene.setting, scene.rules, triangle, scratch_);
   if (!std::ranges::equal(scratch_, must)) {
-    return tl::unexpected(Error{ErrorKind::subject, fmt::format("our rasterizer and the oracle by definition differ on {}",
-                                                                coordinates(triangle))});
+    return tl::unexpected(
+        Error{ErrorKind::subject,
+              fmt::format("our rasterizer and the oracle by definition differ on {}", coordinates(triangle))});
   }
   oracle::cover_by_shift(scene.setting, scene.rules, triangle, scratch_);
   if (!std::ranges::equal(scratch_, must)) {

@@ -68,7 +68,9 @@ DrawReply draw(Driver& driver, SharedMemory& memory, const DrawRequest& request)
     return reply;
   }
   const auto locations = standard_sample_locations(request.samples);
-  const Setting setting{{request.width, request.height}, {locations.begin(), locations.end()}};
+  Setting setting;
+  setting.target = {request.width, request.height};
+  setting.sample_locations.assign(locations.begin(), locations.end());
   const std::span triangles(reinterpret_cast<const Triangle*>(memory.data()), request.triangles);
   const std::span masks(reinterpret_cast<std::uint64_t*>(memory.data() + request.masks_offset),
                         MaskLayout(setting).words() * request.triangles);

@@ -44,6 +44,9 @@ WorkerSubject::WorkerSubject(const std::string& name, WorkerCommand command, std
 
 std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
   if (auto reason = Subject::refusal(scene)) return reason;
+  if (scene.setting.cull != CullMode::none) return "culling";
+  if (scene.assembly) return "primitives that the driver would assemble";
+  if (scene.clip) return "clip-space geometry";
   if (!has_standard_samples(scene.setting)) return "sample locations other than the standard ones";
   const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
   if (mask_bytes > max_mask_bytes_) {
