@@ -122,6 +122,30 @@ TEST_P(FastRasterizerTest, ManyTrianglesOnOneTarget) {
   ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
 }
 
+// Larger than a block, in bands of every kind: wide ones, slivers, edges of every slope.
+TEST_P(FastRasterizerTest, LargeTrianglesInsideTheTarget) {
+  const Target target = *Target::make(420, 310);
+  std::mt19937_64 random(7);
+  const auto between = [&](std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
+  };
+  std::vector<Fixed> triangles(24 * 40);
+  for (Fixed& triangle : triangles) {
+    const std::int64_t step = random() % 3 == 0 ? 128 : 1;
+    const auto point = [&](std::int64_t x, std::int64_t y) {
+      return vertex(std::clamp<std::int64_t>(x, 0, 420 * 256) / step * step,
+                    std::clamp<std::int64_t>(y, 0, 310 * 256) / step * step);
+    };
+    const std::int64_t x0 = between(0, 420 * 256), y0 = between(0, 310 * 256);
+    const std::int64_t x1 = between(0, 420 * 256), y1 = between(0, 310 * 256);
+    const std::int64_t along = between(0, 256), off = random() % 2 == 0 ? 420 * 256 : 1 << between(4, 14);
+    triangle = {
+        point(x0, y0), point(x1, y1),
+        point(x0 + (x1 - x0) * along / 256 + between(-off, off), y0 + (y1 - y0) * along / 256 + between(-off, off))};
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
+}
+
 TEST_P(FastRasterizerTest, EndsOfTheRangeOnLargeTargets) {
   for (const auto& [width, height] : {std::array{16384, 48}, std::array{48, 16384}, std::array{2500, 2500}}) {
     const Target target = *Target::make(width, height);

@@ -75,7 +75,7 @@ void FastRasterizer::cover_each(std::span<const FixedTriangle<Format16_8>> trian
                                 std::span<std::uint64_t> masks) const {
   assert(masks.size() == triangles.size() * target.mask_words());
   const StripLayout layout(target);
-  std::vector<std::uint32_t> scratch(layout.words() * kMaxLanes);
+  std::vector<std::uint32_t> scratch(layout.words() * kMaxLanes + layout.stride);
   kernels_->cover_each(triangles, target.width().value(), layout.words(),
                        {scratch.data(), layout.stride, layout.count, target.height().value()}, masks.data());
 }

@@ -50,7 +50,7 @@ HWY_INLINE void draw_group(const SnappedTriangle* triangles, int width, std::siz
   const I32 zero = hn::Zero(d);
   const I32 columns = hn::Sub(setup.right, setup.left);
   const I32 rows = hn::Sub(setup.bottom, setup.top);
-  // As with edge functions, a sum of conditions "not negative" is the sign of the or.
+  // As with edge functions, a conjunction of conditions "not negative" is the sign of the or.
   const auto room_in = [&](I32 value, int most) { return hn::Sub(hn::Set(d, most), value); };
   const I32 inside =
       hn::Or(hn::Or(setup.left, setup.top), hn::Or(room_in(setup.right, width), room_in(setup.bottom, strips.height)));
@@ -69,14 +69,23 @@ HWY_INLINE void draw_group(const SnappedTriangle* triangles, int width, std::siz
       bits_of(hn::Gt(hn::Or(room_in(columns, kMediumExtent), room_in(rows, kMediumExtent)), minus_one));
   StoredSetup stored;
   if ((others & medium) != 0) store(setup, stored);
-  for (; others != 0; others &= others - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(others));
+  const I32 in_block =
+      hn::Or(room_in(rows, kBlockRows), room_in(hn::Sub(setup.right, setup.strip_left), kBlockColumns));
+  const std::uint64_t block = others & bits_of(hn::Gt(hn::Or(inside, in_block), minus_one));
+  for (std::uint64_t lanes = block; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    Strips own = strips;
+    own.words += lane * apart;
+    draw_block(stored, lane, own);
+  }
+  for (std::uint64_t lanes = others & ~block; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     Strips own = strips;
     own.words += lane * apart;
     if (medium >> lane & 1) {
       draw_medium(stored, lane, own);
     } else {
-      draw_large(triangles[lane], own);
+      draw_large(triangles[lane], width, own);
     }
   }
 }

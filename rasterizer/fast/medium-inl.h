@@ -15,9 +15,10 @@ namespace edgecase::rasterizer::HWY_NAMESPACE {
 
 /// A LaneSetup in memory, a lane of which is one triangle.
 struct StoredSetup {
-  HWY_ALIGN std::int32_t strip_left[kMaxLanes], right[kMaxLanes], top[kMaxLanes], middle[kMaxLanes], bottom[kMaxLanes];
+  HWY_ALIGN std::int32_t strip_left[kMaxLanes], right[kMaxLanes], top[kMaxLanes];
+  HWY_ALIGN std::int32_t middle[kMaxLanes], rows[kMaxLanes];  ///< from the top on
   struct StoredEdge {
-    HWY_ALIGN float k[kMaxLanes], step[kMaxLanes], scale[kMaxLanes];
+    HWY_ALIGN float k[kMaxLanes], step[kMaxLanes], scale[kMaxLanes];  ///< k of the top row
   };
   StoredEdge longer, upper, lower;
 };
@@ -31,14 +32,18 @@ HWY_INLINE void store(const LaneEdge& edge, StoredSetup::StoredEdge& to) {
 
 HWY_INLINE void store(const LaneSetup& s, StoredSetup& to) {
   const auto d = DI32();
+  const I32 middle = hn::Sub(s.middle, s.top);
   hn::Store(s.strip_left, d, to.strip_left);
   hn::Store(s.right, d, to.right);
   hn::Store(s.top, d, to.top);
-  hn::Store(s.middle, d, to.middle);
-  hn::Store(s.bottom, d, to.bottom);
+  hn::Store(middle, d, to.middle);
+  hn::Store(hn::Sub(s.bottom, s.top), d, to.rows);
   store(s.longer, to.longer);
   store(s.upper, to.upper);
-  store(s.lower, to.lower);
+  // Continued upwards: float_decides() regards an edge in all rows of its triangle.
+  LaneEdge lower = s.lower;
+  lower.k = hn::NegMulAdd(hn::ConvertTo(DF32(), middle), lower.step, lower.k);
+  store(lower, to.lower);
 }
 
 /// Adds `words` to the rows from `to` on.
@@ -47,48 +52,89 @@ HWY_INLINE void add(U32 words, std::uint32_t* to) {
   hn::StoreU(hn::Or(hn::LoadU(d, to), words), d, to);
 }
 
+/// An edge of a stored triangle, the same in every lane.
+struct RowEdge {
+  F32 k, step, scale;
+  RowEdge(const StoredSetup::StoredEdge& edge, std::size_t lane)
+      : k(hn::Set(DF32(), edge.k[lane])),
+        step(hn::Set(DF32(), edge.step[lane])),
+        scale(hn::Set(DF32(), edge.scale[lane])) {}
+};
+
+/// A stored triangle with its rows in lanes.
+class RowCounts {
+ public:
+  RowCounts(const StoredSetup& s, std::size_t lane)
+      : longer_(s.longer, lane),
+        upper_(s.upper, lane),
+        lower_(s.lower, lane),
+        middle_(hn::Set(DI32(), s.middle[lane])) {}
+
+  /// The counts of the kLanes rows from `first` on; equal to each other from row `end` on.
+  HWY_INLINE void at(int first, I32 end, I32& count0, I32& count1) const {
+    const auto di = DI32();
+    const I32 row = hn::Iota(di, first);
+    const F32 frow = hn::ConvertTo(DF32(), row);
+    const auto above = cast(hn::Lt(row, middle_));
+    const M32 live = hn::Lt(row, end);
+    const F32 k0 = hn::MulAdd(frow, longer_.step, longer_.k);
+    const F32 k1 =
+        hn::MulAdd(frow, hn::IfThenElse(above, upper_.step, lower_.step), hn::IfThenElse(above, upper_.k, lower_.k));
+    count0 = hn::IfThenElseZero(live, round_count(k0, longer_.scale));
+    count1 = hn::IfThenElseZero(live, round_count(k1, hn::IfThenElse(above, upper_.scale, lower_.scale)));
+  }
+
+ private:
+  RowEdge longer_, upper_, lower_;
+  I32 middle_;
+};
+
+/// The bits of the strip that begins `before` columns right of where counts are taken from, between both counts.
+HWY_INLINE U32 bits_between(I32 count0, I32 count1, int before) {
+  const auto d = DI32();
+  const I32 begin = hn::Set(d, before);
+  return hn::Xor(bits_from(hn::Max(hn::Sub(count0, begin), hn::Zero(d))),
+                 bits_from(hn::Max(hn::Sub(count1, begin), hn::Zero(d))));
+}
+
+/// Columns and rows of a block: what most triangles of a few dozen pixels fit into. Its strips are drawn without a
+/// question, and with the widest vectors its rows, too; those not needed have nothing added to them.
+inline constexpr int kBlockRows = 32;
+inline constexpr int kBlockColumns = 2 * kStripWidth;
+static_assert(kBlockRows <= kRowsBelow);
+
+/// Draws lane `lane`, which lies inside the target, has at most kBlockRows rows and ends at most kBlockColumns right of
+/// its first strip's left side.
+HWY_INLINE void draw_block(const StoredSetup& s, std::size_t lane, const Strips& strips) {
+  const RowCounts rows(s, lane);
+  const I32 end = hn::Set(DI32(), s.rows[lane]);
+  std::uint32_t* left = strips.words + s.top[lane] + static_cast<std::size_t>(s.strip_left[lane] >> 5) * strips.stride;
+  std::uint32_t* right = left + strips.stride;
+  for (int first = 0; first < kBlockRows; first += static_cast<int>(kLanes)) {
+    if (kLanes < kMaxLanes && first >= s.rows[lane]) break;
+    I32 count0, count1;
+    rows.at(first, end, count0, count1);
+    add(hn::Xor(bits_from(count0), bits_from(count1)), left + first);
+    add(bits_between(count0, count1, kStripWidth), right + first);
+  }
+}
+
 /// Draws lane `lane`, which has rows and columns in the target.
 HWY_INLINE void draw_medium(const StoredSetup& s, std::size_t lane, const Strips& strips) {
-  const auto di = DI32();
-  const auto df = DF32();
   const int top = s.top[lane];
-  const int middle = s.middle[lane] - top;
   const int begin = std::max(-top, 0);
-  const int end = std::min(s.bottom[lane], strips.height) - top;
+  const int end = std::min(s.rows[lane], strips.height - top);
   const int first_strip = s.strip_left[lane] >> 5;
   const int strip_begin = std::max(first_strip, 0);
   const int strip_end = std::min((s.right[lane] + kStripWidth - 1) >> 5, strips.count);
-
-  const F32 longer_k = hn::Set(df, s.longer.k[lane]);
-  const F32 longer_step = hn::Set(df, s.longer.step[lane]);
-  const F32 longer_scale = hn::Set(df, s.longer.scale[lane]);
-  const F32 upper_k = hn::Set(df, s.upper.k[lane]);
-  const F32 upper_step = hn::Set(df, s.upper.step[lane]);
-  const F32 upper_scale = hn::Set(df, s.upper.scale[lane]);
-  // Continued upwards, to the first row of the triangle: an integer that float_decides() has regarded.
-  const F32 lower_k = hn::Set(df, s.lower.k[lane] - s.lower.step[lane] * static_cast<float>(middle));
-  const F32 lower_step = hn::Set(df, s.lower.step[lane]);
-  const F32 lower_scale = hn::Set(df, s.lower.scale[lane]);
-
+  const RowCounts rows(s, lane);
   for (int first = begin; first < end; first += static_cast<int>(kLanes)) {
-    const I32 row = hn::Iota(di, first);
-    const F32 frow = hn::ConvertTo(df, row);
-    const auto below = cast(hn::Lt(row, hn::Set(di, middle)));
-    const F32 k0 = hn::MulAdd(frow, longer_step, longer_k);
-    const F32 k1 =
-        hn::MulAdd(frow, hn::IfThenElse(below, upper_step, lower_step), hn::IfThenElse(below, upper_k, lower_k));
-    I32 count0 = round_count(k0, longer_scale);
-    I32 count1 = round_count(k1, hn::IfThenElse(below, upper_scale, lower_scale));
-    // Rows behind the last have none left of either.
-    const M32 live = hn::Lt(row, hn::Set(di, end));
-    count0 = hn::IfThenElseZero(live, count0);
-    count1 = hn::IfThenElseZero(live, count1);
+    I32 count0, count1;
+    rows.at(first, hn::Set(DI32(), end), count0, count1);
     std::uint32_t* to = strips.words + top + first;
     for (int strip = strip_begin; strip < strip_end; ++strip) {
-      const I32 before = hn::Set(di, (strip - first_strip) * kStripWidth);
-      const I32 right0 = hn::Max(hn::Sub(count0, before), hn::Zero(di));
-      const I32 right1 = hn::Max(hn::Sub(count1, before), hn::Zero(di));
-      add(hn::Xor(bits_from(right0), bits_from(right1)), to + static_cast<std::size_t>(strip) * strips.stride);
+      add(bits_between(count0, count1, (strip - first_strip) * kStripWidth),
+          to + static_cast<std::size_t>(strip) * strips.stride);
     }
   }
 }

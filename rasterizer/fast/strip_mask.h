@@ -16,8 +16,12 @@ namespace edgecase::rasterizer {
 
 inline constexpr int kStripWidth = 32;
 
-/// Lanes of the widest vector, and rows behind the last of a strip that a vector may reach into.
+/// Lanes of the widest vector.
 inline constexpr int kMaxLanes = 16;
+
+/// Words are read and written, though not changed, up to this many rows below a strip's last, and in one strip more
+/// than the target has: so that what a triangle covers need not be asked before it is drawn.
+inline constexpr int kRowsBelow = 32;
 
 /// Where strips lie: row y of strip s is words[s * stride + y].
 struct Strips {
@@ -34,19 +38,23 @@ struct StripLayout {
 
   explicit constexpr StripLayout(const Target& target) {
     count = (target.width().value() + kStripWidth - 1) / kStripWidth;
-    stride = (static_cast<std::size_t>(target.height().value()) + 2 * kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+    const std::size_t rows = static_cast<std::size_t>(target.height().value()) + kRowsBelow;
+    stride = (rows + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
     // The same row of neighbouring strips would otherwise fall into the same cache set.
     constexpr std::size_t kPage = 4096 / sizeof(std::uint32_t);
     if (stride % kPage == 0) stride += kMaxLanes;
   }
+  /// Words of the strips, and with the one that follows them.
   constexpr std::size_t words() const { return static_cast<std::size_t>(count) * stride; }
+  constexpr std::size_t allocated_words() const { return words() + stride; }
 };
 
-/// Owns a mask of one sample a pixel, all clear at first. Bits right of the target in its last strip, and the words
-/// below the last row, are no pixels: what they hold is unspecified.
+/// Owns a mask of one sample a pixel, all clear at first. Bits right of the target in its last strip are no
+/// pixels: what they hold is unspecified.
 class StripMask {
  public:
-  explicit StripMask(const Target& target) : target_(target), layout_(target), blocks_(layout_.words() / kMaxLanes) {}
+  explicit StripMask(const Target& target)
+      : target_(target), layout_(target), blocks_(layout_.allocated_words() / kMaxLanes) {}
 
   const Target& target() const { return target_; }
 
