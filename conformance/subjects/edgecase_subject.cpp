@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "conformance/subjects/family_subject.h"
 #include "rasterizer/rasterizer.h"
 
 namespace edgecase::conformance {
@@ -103,7 +104,7 @@ class EdgecaseSubject : public Subject {
 std::unique_ptr<Subject> make_edgecase_subject(const std::string& variant) {
   if (variant.empty()) return std::make_unique<EdgecaseSubject>("edgecase");
   if (variant == "scalar") return std::make_unique<EdgecaseSubject>("edgecase:scalar");
-  return nullptr;
+  return make_family_subject(variant);
 }
 
 }  // namespace edgecase::conformance

@@ -9,11 +9,12 @@
 namespace edgecase::conformance {
 
 /// `edgecase` for the variant "", the member of the family that a user of the library gets, and `edgecase:scalar` for
-/// "scalar", the incremental reference; null for any other variant.
+/// "scalar", the incremental reference; the member of the family for its name (family_subject.h); null for any other
+/// variant.
 ///
-/// Follows the scene's subpixel bits, all of 0 to 16, with 16 integer bits: coordinates that round to a number from
-/// -32768 px to one subpixel below 32768 px. SubjectInfo::max_coordinate is for 8 bits, and for both signs. Snaps to
-/// nearest even only; one sample, in the pixel's centre.
+/// The first two follow the scene's subpixel bits, all of 0 to 16, with 16 integer bits: coordinates that round to a
+/// number from -32768 px to one subpixel below 32768 px. SubjectInfo::max_coordinate is for 8 bits, and for both signs.
+/// Snaps to nearest even only; one sample, in the pixel's centre.
 std::unique_ptr<Subject> make_edgecase_subject(const std::string& variant);
 
 }  // namespace edgecase::conformance
