@@ -182,7 +182,11 @@ struct SlopeStepping {
       for (int y = from; y < to; ++y, longest.next_row(), other.next_row()) {
         int x = longest.first_column(canvas.target.width), end = other.first_column(canvas.target.width);
         if (area < 0) std::swap(x, end);
-        for (; x < end; ++x) canvas.row(y)[x / 64] |= std::uint64_t{1} << (x % 64);
+        while (x < end) {
+          const int next = std::min((x / 64 + 1) * 64, end);
+          canvas.row(y)[x / 64] |= ~std::uint64_t{0} >> (64 - (next - x)) << (x % 64);
+          x = next;
+        }
       }
     };
     if (top < split) cover_rows(Edge(high, middle, top), top, split);
