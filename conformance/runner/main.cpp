@@ -2,7 +2,9 @@
 #include <cstdio>
 #include <thread>
 
+#include "conformance/bench/bench.h"
 #include "conformance/runner/commands.h"
+#include "conformance/subjects/registry.h"
 
 namespace {
 
@@ -37,6 +39,17 @@ void add_show(CLI::App& app, ShowOptions& options) {
   show->add_option("--png", options.png, "Write a picture")->type_name("FILE");
 }
 
+void add_bench(CLI::App& app, BenchOptions& options) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure speed beside error, rasterizer by rasterizer");
+  bench->add_option("--workload", options.workloads, "Workload; may be repeated")->type_name("W")->take_all();
+  bench->add_option("--subject", options.subjects, "Rasterizer; may be repeated")->type_name("S")->take_all();
+  bench->add_flag("--quick", options.quick, "Fewer triangles and repetitions: under a minute in all");
+  bench->add_option("--json", options.json, "Write the rows as JSON")->type_name("FILE");
+  bench->add_option("--plot", options.plot, "Draw error over time as PNG, with gnuplot")->type_name("FILE");
+  bench->add_option("--seed", options.seed, "Seed of the workloads")->type_name("N")->capture_default_str();
+  options.make_subject = make_subject;
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("Checks that rasterizers cover exactly the samples that the rules say.", "edgecase");
   app.set_version_flag("--version", std::string("edgecase ") + EDGECASE_VERSION);
@@ -53,6 +66,9 @@ int dispatch(int argc, char** argv) {
   ShowOptions show_options;
   add_show(app, show_options);
 
+  BenchOptions bench_options;
+  add_bench(app, bench_options);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -62,6 +78,7 @@ int dispatch(int argc, char** argv) {
   const std::filesystem::path source = EDGECASE_SOURCE_DIR;
   const DataFiles data{source / "cases", source / "conformance" / "known_deviations.json"};
   if (*list) return list_command(data, list_what);
+  if (app.got_subcommand("bench")) return bench_command(bench_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
   return run_command(data, run_options);
 }

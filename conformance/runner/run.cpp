@@ -22,9 +22,9 @@ tl::expected<Reference, Error> reference_for(const std::string& subject) {
   return Reference(std::move(*fast));
 }
 
-// Ours snap as each scene asks, and what a model predicts in full needs no rule; everybody else is found out.
+// Ours snap as the scene asks or as they claim, and what a model predicts in full needs no rule; drivers are found out.
 tl::expected<Rules, Error> rules_of(Subject& subject, const KnownDeviation* deviation) {
-  if (subject.info().follows_scene_rules || deviation != nullptr) return subject.info().rules;
+  if (subject.info().device.empty() || deviation != nullptr) return subject.info().rules;
   return find_snap(subject);
 }
 

@@ -29,7 +29,7 @@ MaskBatch by_the_rules(const Scene& scene) {
 tl::expected<void, Error> add_subject(const Case& file, const std::string& name, Exhibit& exhibit) {
   auto subject = make_subject(name);
   if (!subject) return tl::unexpected(subject.error());
-  const bool probed = !(*subject)->info().follows_scene_rules;
+  const bool probed = !(*subject)->info().device.empty();
   const auto rules = probed ? find_snap(**subject) : file.scene.rules;
   auto scene = scene_for(file, (*subject)->info(), rules.value_or((*subject)->info().rules));
   const auto refusal = scene ? (*subject)->refusal(*scene) : scene.error();

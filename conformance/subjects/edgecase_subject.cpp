@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "conformance/subjects/family_subject.h"
 #include "rasterizer/fast/fast.h"
 #include "rasterizer/rasterizer.h"
 
@@ -169,7 +170,7 @@ std::unique_ptr<Subject> make_edgecase_subject(const std::string& variant) {
       return std::make_unique<EdgecaseSubject>("edgecase:" + variant, FastRasterizer::make(isa));
     }
   }
-  return nullptr;
+  return make_family_subject(variant);
 }
 
 }  // namespace edgecase::conformance

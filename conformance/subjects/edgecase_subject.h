@@ -10,7 +10,8 @@ namespace edgecase::conformance {
 
 /// `edgecase` for the variant "", the fast path for the best instruction set of this machine; `edgecase:portable`,
 /// `edgecase:sse4`, `edgecase:avx2` and `edgecase:avx3`, the fast path for that one; `edgecase:scalar`, the incremental
-/// reference. Null for any other variant, and for an instruction set that the machine has not. The fast path takes one
+/// reference; the member of the family for its name (family_subject.h). Null for any other variant, and for an
+/// instruction set that the machine has not. The fast path takes one
 /// sample in the pixel's centre, no scissor, and up to 8 subpixel bits; where a scene asks for more, the scalar one
 /// stands in.
 ///

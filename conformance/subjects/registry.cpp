@@ -8,7 +8,9 @@
 #include "conformance/scene/nearest_name.h"
 #include "conformance/subjects/driver_subject.h"
 #include "conformance/subjects/edgecase_subject.h"
+#include "conformance/subjects/family_subject.h"
 #include "conformance/subjects/fault_subject.h"
+#include "conformance/subjects/inexact_subject.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -16,6 +18,7 @@ namespace {
 constexpr std::string_view kEdgecase = "edgecase";
 constexpr std::string_view kEdgecaseFamily = "edgecase:";
 constexpr std::string_view kFaultFamily = "fault:";
+constexpr std::string_view kInexactFamily = "inexact:";
 constexpr std::string_view kVulkanFamily = "vulkan:";
 constexpr std::string_view kDrivers[] = {"lavapipe", "osmesa-llvmpipe", "osmesa-softpipe"};
 
@@ -40,6 +43,14 @@ std::vector<SubjectName> subject_names() {
       {"osmesa-llvmpipe", "Mesa's llvmpipe through OpenGL"},
       {"osmesa-softpipe", "Mesa's older rasterizer through OpenGL; breaks the rules, in ways that are known"},
       {"vulkan:DEVICE-OR-ICD", "a Vulkan driver, by part of its device's name or by its ICD file (.json)"}};
+  for (const std::string_view member : family_subjects()) {
+    if (member == "scalar") continue;  // listed above
+    names.push_back({fmt::format("{}{}", kEdgecaseFamily, member), std::string(about_family_subject(member))});
+  }
+  for (const InexactInfo& inexact : inexact_subjects()) {
+    names.push_back(
+        {fmt::format("{}{}", kInexactFamily, inexact.name), fmt::format("inexact: {}", inexact.description)});
+  }
   for (const FaultInfo& fault : faults()) {
     names.push_back(
         {fmt::format("{}{}", kFaultFamily, fault.name), fmt::format("wrong on purpose: {}", fault.description)});
@@ -54,6 +65,8 @@ tl::expected<std::unique_ptr<Subject>, Error> make_subject(const std::string& na
     subject = make_edgecase_subject("");
   } else if (name.starts_with(kEdgecaseFamily) && name != kEdgecaseFamily) {
     subject = make_edgecase_subject(rest_of(kEdgecaseFamily));
+  } else if (name.starts_with(kInexactFamily)) {
+    subject = make_inexact_subject(rest_of(kInexactFamily));
   } else if (name.starts_with(kFaultFamily)) {
     subject = make_fault_subject(rest_of(kFaultFamily));
   } else if (std::ranges::find(kDrivers, name) != std::end(kDrivers) ||

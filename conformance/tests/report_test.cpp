@@ -100,7 +100,7 @@ TEST(JsonReport, HasEveryKeyInTheDesignsOrder) {
   EXPECT_THAT(keys(root), ElementsAre("edgecase", "seed", "results", "totals"));
   ASSERT_EQ(root["results"].size(), 4u);
   for (const auto& result : root["results"]) {
-    EXPECT_THAT(keys(result), ElementsAre("subject", "device", "case", "category", "verdict", "triangles",
+    EXPECT_THAT(keys(result), ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles",
                                           "samples_compared", "missing", "unexpected", "doubled", "known_triangles",
                                           "first", "reason", "seconds", "subject_seconds"));
   }
@@ -115,7 +115,7 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["edgecase"], "0.1.0");
   EXPECT_EQ(root["seed"].get<std::uint64_t>(), UINT64_MAX);
   EXPECT_EQ(root["results"][0], json::parse(R"j({
-      "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "case": "cases/a.json", "category": "edges",
+      "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "snap": null, "case": "cases/a.json", "category": "edges",
       "verdict": "pass", "triangles": 4, "samples_compared": 1024, "missing": 0, "unexpected": 0, "doubled": 0,
       "known_triangles": 0, "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
 })j"));
