@@ -8,6 +8,7 @@
 
 #include "conformance/bench/plain.h"
 #include "conformance/subjects/inexact_subject.h"
+#include "rasterizer/centre_sample.h"
 #include "rasterizer/family/family.h"
 #include "rasterizer/rasterizer.h"
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "rasterizer/edge.h"
+#include "rasterizer/centre_sample.h"
 
 namespace edgecase::conformance {
 namespace {

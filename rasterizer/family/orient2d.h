@@ -31,9 +31,9 @@ constexpr void cover_orient2d(const FixedTriangle<F>& triangle, const Target& ta
       std::uint64_t bits = 0;
       for (; x < std::min(word * 64 + 64, box->right.value()); ++x) {
         const auto column = *PixelIndex::checked(x);
-        const bool inside = biased_edge_value<F>(v0, v1, column, row) >= constant<0> &&
-                            biased_edge_value<F>(v1, v2, column, row) >= constant<0> &&
-                            biased_edge_value<F>(v2, v0, column, row) >= constant<0>;
+        const bool inside = biased_edge_value<F>(v0, v1, pixel_centre<F>(column, row)) >= constant<0> &&
+                            biased_edge_value<F>(v1, v2, pixel_centre<F>(column, row)) >= constant<0> &&
+                            biased_edge_value<F>(v2, v0, pixel_centre<F>(column, row)) >= constant<0>;
         bits |= std::uint64_t{inside} << (x % 64);
       }
       if (bits != 0) sink(y, word, bits);

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "rasterizer/edge.h"
+#include "rasterizer/centre_sample.h"
 
 namespace edgecase::rasterizer::family {
 

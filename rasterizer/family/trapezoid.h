@@ -75,14 +75,15 @@ constexpr void cover_trapezoid(const FixedTriangle<F>& triangle, const Target& t
   // The first row of the box whose sample is at or below y, or the end of the box.
   const auto first_row_from = [&](typename F::Coordinate y) {
     constexpr auto kBelowOnePixel = constant<(std::int64_t{1} << F::kSampleBits) - 1>;
-    const auto row = (on_sample_grid<F>(y) - kPixelCentre<F> + kBelowOnePixel).template shifted_right<F::kSampleBits>();
+    const auto row =
+        (on_sample_grid<F>(y) - CentreSample::point<F>(0).y + kBelowOnePixel).template shifted_right<F::kSampleBits>();
     return clamp(row, box->top, box->bottom).value();
   };
   const int top = box->top.value(), split = first_row_from(middle.y), bottom = first_row_from(low.y);
   const int left = box->left.value(), width = box->right.value() - left;
 
   const auto edge = [&](const FixedVertex<F>& p, const FixedVertex<F>& q) {
-    const Edge<F> made = make_edge<F>(p, q, box->left, box->top);
+    const Edge<F> made = make_edge<F>(p, q, pixel_centre<F>(box->left, box->top));
     return PlainEdge{made.a.value(), made.b.value(), made.c.value()};
   };
   const auto cover_rows = [&](const PlainEdge& left_edge, const PlainEdge& right_edge, int from, int to) {
