@@ -1,6 +1,7 @@
 #include "conformance/compare/picture.h"
 
 #include <cairo.h>
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -10,6 +11,7 @@
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -20,6 +22,9 @@
 #include "conformance/compare/panels.h"
 #include "conformance/compare/text_picture.h"
 #include "conformance/tests/sample_exhibits.h"
+
+/// Asked by the leak checker: fontconfig keeps patterns for the life of the process.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
 
 namespace edgecase::conformance {
 namespace {
@@ -133,7 +138,7 @@ TEST(SampleState, OpenSamplesMayBeCoveredOnce) {
   const MaskLayout layout(exhibit.scene.setting);
   exhibit.may = exhibit.must;
   std::fill(exhibit.may.data().begin(), exhibit.may.data().end(), 0);
-  for (const std::size_t triangle : {0, 1}) {
+  for (const std::size_t triangle : {std::size_t{0}, std::size_t{1}}) {
     for (const int x : {0, 1, 2}) cover(exhibit.may[triangle], layout.bit(x, 0, 0));
   }
   cover(exhibit.observed[0], layout.bit(1, 0, 0));
@@ -373,6 +378,43 @@ TEST(AtomicFile, ReplacesWholeFilesAndFollowsLinks) {
   EXPECT_EQ(folder.files(), 2u);
   EXPECT_FALSE(write_file_atomically(folder / "", "x"));
   EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(AtomicFile, KeepsTheModeOfAnExistingFile) {
+  const Folder folder;
+  ASSERT_TRUE(write_file_atomically(folder / "a", "one"));
+  std::filesystem::permissions(folder / "a", std::filesystem::perms{0640});
+  ASSERT_TRUE(write_file_atomically(folder / "a", "two"));
+  EXPECT_EQ(std::filesystem::status(folder / "a").permissions(), std::filesystem::perms{0640});
+  EXPECT_EQ(content_of(folder / "a"), "two");
+}
+
+TEST(AtomicFile, TakesTheLongestNameThatAFileCanHave) {
+  const Folder folder;
+  const std::string name(255, 'n');
+  ASSERT_TRUE(write_file_atomically(folder / name, "x"));
+  EXPECT_EQ(content_of(folder / name), "x");
+}
+
+// As in `edgecase run --json /dev/stdout > file`: nothing that was printed before or after may be overwritten.
+TEST(AtomicFile, StandsInOrderWithWhatIsPrinted) {
+  const Folder folder;
+  std::fflush(stdout);
+  const int saved = ::dup(STDOUT_FILENO);
+  const int file = ::open((folder / "out").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  ASSERT_EQ(::dup2(file, STDOUT_FILENO), STDOUT_FILENO);
+  ::close(file);
+  std::fputs("before ", stdout);
+  const auto by_name = write_file_atomically("/dev/stdout", "one ");
+  std::fputs("between ", stdout);
+  const auto by_number = write_file_atomically("/dev/fd/1", "two ");
+  std::fputs("after", stdout);
+  std::fflush(stdout);
+  ::dup2(saved, STDOUT_FILENO);
+  ::close(saved);
+  EXPECT_TRUE(by_name && by_number);
+  EXPECT_EQ(content_of(folder / "out"), "before one between two after");
+  EXPECT_FALSE(write_file_atomically("/dev/fd/9999", "x"));
 }
 
 // A limit on the size of files stands in for a full disk: the write fails part of the way.
