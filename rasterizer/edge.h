@@ -25,21 +25,9 @@
 #include <optional>
 
 #include "rasterizer/format.h"
-#include "rasterizer/target.h"
+#include "rasterizer/sample_pattern.h"
 
 namespace edgecase::rasterizer {
-
-/// Pixels left <= x < right, top <= y < bottom; neither range is empty.
-struct PixelBox {
-  PixelIndex left;
-  PixelIndex top;
-  PixelIndex right;
-  PixelIndex bottom;
-};
-
-/// Where the sample lies in its pixel, both coordinates, in units of 2^-P px.
-template <class F>
-inline constexpr auto kPixelCentre = constant<(std::int64_t{1} << F::kSampleBits) / 2>;
 
 /// A vertex coordinate in units of 2^-P px.
 template <class F>
@@ -47,31 +35,34 @@ constexpr auto on_sample_grid(typename F::Coordinate coordinate) {
   return coordinate.template shifted_left<F::kSampleBits - F::kSubpixelBits>();
 }
 
-/// The sample of the pixel in that column or row, in units of 2^-P px.
+/// The sample at `offset` in the pixel of that column or row, in units of 2^-P px.
 template <class F>
-constexpr auto sample_of(PixelIndex pixel) {
-  return pixel.shifted_left<F::kSampleBits>() + kPixelCentre<F>;
+constexpr auto sample_of(PixelIndex pixel, SampleOffset<F> offset) {
+  return pixel.shifted_left<F::kSampleBits>() + offset;
 }
 
-/// The pixels of `target` whose samples lie in the closed bounding box of `triangle`, or nothing if there are none: a
-/// sample that is right of, left of, above or below all three vertices is outside.
-template <class F>
-constexpr std::optional<PixelBox> pixel_box(const FixedTriangle<F>& triangle, const Target& target) {
-  constexpr auto kZero = *PixelIndex::checked(0);
+/// The pixels of `view` that have a sample in the closed bounding box of `triangle`, or nothing if there are none: a
+/// sample that is right of, left of, above or below all three vertices is outside. Samples of one pixel differ, so a
+/// pixel's greatest offset decides at the left and the top, and its least at the right and the bottom.
+template <class F, class Samples, class Clip>
+constexpr std::optional<PixelBox> pixel_box(const FixedTriangle<F>& triangle, const View<Samples, Clip>& view) {
   constexpr auto kBelowOnePixel = constant<(std::int64_t{1} << F::kSampleBits) - 1>;
-  // Pixel i has its sample at i * 2^P + centre: the first at or right of v is ceil((v - centre) / 2^P).
-  const auto first_from = [&](typename F::Coordinate v) {
-    return (on_sample_grid<F>(v) - kPixelCentre<F> + kBelowOnePixel).template shifted_right<F::kSampleBits>();
+  // Pixel i has the sample i * 2^P + offset: the first at or right of v is ceil((v - offset) / 2^P).
+  const auto first_from = [&](typename F::Coordinate v, SampleOffset<F> offset) {
+    return (on_sample_grid<F>(v) - offset + kBelowOnePixel).template shifted_right<F::kSampleBits>();
   };
-  // And the end of those at or left of v is floor((v - centre) / 2^P) + 1.
-  const auto end_up_to = [&](typename F::Coordinate v) {
-    return (on_sample_grid<F>(v) - kPixelCentre<F>).template shifted_right<F::kSampleBits>() + constant<1>;
+  // And the end of those at or left of v is floor((v - offset) / 2^P) + 1.
+  const auto end_up_to = [&](typename F::Coordinate v, SampleOffset<F> offset) {
+    return (on_sample_grid<F>(v) - offset).template shifted_right<F::kSampleBits>() + constant<1>;
   };
   const auto& [v0, v1, v2] = triangle;
-  const PixelBox box{clamp(first_from(std::min({v0.x, v1.x, v2.x})), kZero, target.width()),
-                     clamp(first_from(std::min({v0.y, v1.y, v2.y})), kZero, target.height()),
-                     clamp(end_up_to(std::max({v0.x, v1.x, v2.x})), kZero, target.width()),
-                     clamp(end_up_to(std::max({v0.y, v1.y, v2.y})), kZero, target.height())};
+  const SamplePoint<F> least = view.samples.template least<F>();
+  const SamplePoint<F> greatest = view.samples.template greatest<F>();
+  const PixelBox in = view.bounds();
+  const PixelBox box{clamp(first_from(std::min({v0.x, v1.x, v2.x}), greatest.x), in.left, in.right),
+                     clamp(first_from(std::min({v0.y, v1.y, v2.y}), greatest.y), in.top, in.bottom),
+                     clamp(end_up_to(std::max({v0.x, v1.x, v2.x}), least.x), in.left, in.right),
+                     clamp(end_up_to(std::max({v0.y, v1.y, v2.y}), least.y), in.top, in.bottom)};
   if (box.left >= box.right || box.top >= box.bottom) return std::nullopt;
   return box;
 }
@@ -83,12 +74,25 @@ constexpr auto doubled_area(const FixedTriangle<F>& triangle) {
   return (v1.x - v0.x) * (v2.y - v0.y) - (v2.x - v0.x) * (v1.y - v0.y);
 }
 
-/// floor((E + bias) / 2^P) at the sample of the pixel (column, row).
+/// A sample as a point, in units of 2^-P px: the one at `offset` in the pixel (column, row).
 template <class F>
-constexpr auto biased_edge_value(const FixedVertex<F>& p, const FixedVertex<F>& q, PixelIndex column, PixelIndex row) {
+struct SamplePosition {
+  using Coordinate = decltype(sample_of<F>({}, {}));
+  Coordinate x;
+  Coordinate y;
+};
+
+template <class F>
+constexpr SamplePosition<F> sample_position(PixelIndex column, PixelIndex row, const SamplePoint<F>& offset) {
+  return {sample_of<F>(column, offset.x), sample_of<F>(row, offset.y)};
+}
+
+/// floor((E + bias) / 2^P) at `s`.
+template <class F>
+constexpr auto biased_edge_value(const FixedVertex<F>& p, const FixedVertex<F>& q, const SamplePosition<F>& s) {
   const auto a = p.y - q.y;
   const auto b = q.x - p.x;
-  const auto e = a * (sample_of<F>(column) - on_sample_grid<F>(p.x)) + b * (sample_of<F>(row) - on_sample_grid<F>(p.y));
+  const auto e = a * (s.x - on_sample_grid<F>(p.x)) + b * (s.y - on_sample_grid<F>(p.y));
   const bool top_left = a > constant<0> || (a == constant<0> && b > constant<0>);
   const auto bias = top_left ? Int<1>() : constant<-1>;
   return (e + bias).template shifted_right<F::kSampleBits>();
@@ -99,29 +103,32 @@ constexpr auto biased_edge_value(const FixedVertex<F>& p, const FixedVertex<F>& 
 template <class F>
 struct Edge {
   using Step = Int<F::kBits + 1>;
-  using Value = decltype(biased_edge_value<F>({}, {}, {}, {}));
+  using Value = decltype(biased_edge_value<F>({}, {}, {}));
   Step a;
   Step b;
   Value c;
 };
 
-/// The edge from p to q of a triangle with positive area, with its origin at the pixel (column, row).
+/// The edge from p to q of a triangle with positive area, with its origin at the sample `s`.
 template <class F>
-constexpr Edge<F> make_edge(const FixedVertex<F>& p, const FixedVertex<F>& q, PixelIndex column, PixelIndex row) {
-  return {p.y - q.y, q.x - p.x, biased_edge_value<F>(p, q, column, row)};
+constexpr Edge<F> make_edge(const FixedVertex<F>& p, const FixedVertex<F>& q, const SamplePosition<F>& s) {
+  return {p.y - q.y, q.x - p.x, biased_edge_value<F>(p, q, s)};
 }
 
-/// The edges of `triangle`, turned to positive area, with their origin at the pixel (column, row); nothing if the
-/// triangle is degenerate.
+/// `triangle` with its vertices in an order of positive area; nothing if it is degenerate.
 template <class F>
-constexpr std::optional<std::array<Edge<F>, 3>> make_edges(const FixedTriangle<F>& triangle, PixelIndex column,
-                                                           PixelIndex row) {
+constexpr std::optional<FixedTriangle<F>> turned_clockwise(const FixedTriangle<F>& triangle) {
   const auto area = doubled_area<F>(triangle);
   if (area == constant<0>) return std::nullopt;
+  if (area > constant<0>) return triangle;
+  return FixedTriangle<F>{triangle[0], triangle[2], triangle[1]};
+}
+
+/// The edges of `triangle`, of positive area, with their origin at the sample `s`.
+template <class F>
+constexpr std::array<Edge<F>, 3> make_edges(const FixedTriangle<F>& triangle, const SamplePosition<F>& s) {
   const auto& [v0, v1, v2] = triangle;
-  const auto edge = [&](const FixedVertex<F>& p, const FixedVertex<F>& q) { return make_edge<F>(p, q, column, row); };
-  if (area > constant<0>) return std::array{edge(v0, v1), edge(v1, v2), edge(v2, v0)};
-  return std::array{edge(v0, v2), edge(v2, v1), edge(v1, v0)};
+  return {make_edge<F>(v0, v1, s), make_edge<F>(v1, v2, s), make_edge<F>(v2, v0, s)};
 }
 
 // The widths that the text above promises for the whole 16.8 range.

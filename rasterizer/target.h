@@ -27,10 +27,14 @@ class Target {
 
   constexpr PixelIndex width() const { return width_; }
   constexpr PixelIndex height() const { return height_; }
-  /// 64-bit words in a row of a mask.
-  constexpr std::size_t row_words() const { return (static_cast<std::size_t>(width_.value()) + 63) / 64; }
+  /// 64-bit words in a row of a mask with that many samples a pixel.
+  constexpr std::size_t row_words(int samples = 1) const {
+    return (static_cast<std::size_t>(width_.value()) * static_cast<std::size_t>(samples) + 63) / 64;
+  }
   /// 64-bit words in a mask.
-  constexpr std::size_t mask_words() const { return row_words() * static_cast<std::size_t>(height_.value()); }
+  constexpr std::size_t mask_words(int samples = 1) const {
+    return row_words(samples) * static_cast<std::size_t>(height_.value());
+  }
 
  private:
   constexpr Target(PixelIndex width, PixelIndex height) : width_(width), height_(height) {}
@@ -38,26 +42,30 @@ class Target {
   PixelIndex height_;
 };
 
-/// A view of a coverage mask, owned by the caller: rows top to bottom, each padded to whole words; the pixel in column
-/// x is bit x % 64, counted from the least significant, of word x / 64 of its row.
+/// A coverage mask, owned by the caller: rows top to bottom, each padded to whole words; sample s of the pixel in
+/// column x is bit b % 64, counted from the least significant, of word b / 64 of its row, b = x * samples + s.
 class Mask {
  public:
-  /// Nothing unless `words` has exactly target.mask_words() words.
-  static constexpr std::optional<Mask> over(Target target, std::span<std::uint64_t> words) {
-    if (words.size() != target.mask_words()) return std::nullopt;
-    return Mask(target, words);
+  /// Nothing unless `words` has exactly target.mask_words(samples) words, and samples is positive.
+  static constexpr std::optional<Mask> over(Target target, std::span<std::uint64_t> words, int samples = 1) {
+    if (samples < 1 || words.size() != target.mask_words(samples)) return std::nullopt;
+    return Mask(target, words, samples);
   }
 
   constexpr const Target& target() const { return target_; }
+  constexpr int samples() const { return samples_; }
 
-  /// Adds up to 64 pixels of row y, beginning at column 64 * word.
+  /// Adds up to 64 samples of row y, beginning with bit 64 * word of the row.
   constexpr void add(int y, int word, std::uint64_t bits) const {
-    words_[static_cast<std::size_t>(y) * target_.row_words() + static_cast<std::size_t>(word)] |= bits;
+    words_[static_cast<std::size_t>(y) * row_words_ + static_cast<std::size_t>(word)] |= bits;
   }
 
  private:
-  constexpr Mask(Target target, std::span<std::uint64_t> words) : target_(target), words_(words) {}
+  constexpr Mask(Target target, std::span<std::uint64_t> words, int samples)
+      : target_(target), samples_(samples), row_words_(target.row_words(samples)), words_(words) {}
   Target target_;
+  int samples_;
+  std::size_t row_words_;
   std::span<std::uint64_t> words_;
 };
 

@@ -129,10 +129,19 @@ std::pair<int, int> touched_pixels(Wide low, Wide high, int bits, int extent) {
   return {static_cast<int>(first), static_cast<int>(last) + 1};
 }
 
+// By definition again: the scissor is asked pixel by pixel.
+bool scissor_holds(const Setting& setting, int x, int y) {
+  if (!setting.scissor) return true;
+  const Rect& r = *setting.scissor;
+  return x >= r.x && x < std::int64_t{r.x} + r.width && y >= r.y && y < std::int64_t{r.y} + r.height;
+}
+
 }  // namespace
 
 GridPoint snap(const Rules& rules, const Position& position) {
-  return {snap_coordinate(rules, position.x), snap_coordinate(rules, position.y)};
+  if (!rules.half_pixel_first) return {snap_coordinate(rules, position.x), snap_coordinate(rules, position.y)};
+  const std::int64_t half = (std::int64_t{1} << rules.subpixel_bits) / 2;
+  return {snap_coordinate(rules, position.x - 0.5f) + half, snap_coordinate(rules, position.y - 0.5f) + half};
 }
 
 void cover_by_definition(const Setting& setting, const Rules& rules, const Triangle& triangle, MutableMaskView mask) {
@@ -146,6 +155,7 @@ void cover_by_definition(const Setting& setting, const Rules& rules, const Trian
 
   for (int y = y_begin; y < y_end; ++y) {
     for (int x = x_begin; x < x_end; ++x) {
+      if (!scissor_holds(setting, x, y)) continue;
       for (int s = 0; s < setting.samples(); ++s) {
         const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(s)];
         if (outline.covers(sample_point(rules, location, x, y))) cover(mask, layout.bit(x, y, s));
@@ -166,7 +176,7 @@ Explanation explain(const Setting& setting, const Rules& rules, const Triangle& 
     const Edge& edge = outline.edges[i];
     result.edges[i] = {edge.from, edge.to, decimal(edge.at(p)), edge.is_top(), edge.is_left()};
   }
-  result.inside = outline.covers(p);
+  result.inside = scissor_holds(setting, x, y) && outline.covers(p);
   return result;
 }
 

@@ -40,6 +40,11 @@ Rational exact(float value) {
 
 // The multiple of 2^-subpixel_bits that the rules move `value` to.
 Rational snapped(const Rules& rules, float value) {
+  if (rules.half_pixel_first) {
+    Rules plain = rules;
+    plain.half_pixel_first = false;
+    return snapped(plain, value - 0.5f) + Rational(1, 2);
+  }
   const Integer scale = Integer(1) << rules.subpixel_bits;
   const Rational scaled = exact(value) * scale;
   if (denominator(scaled) == 1) return exact(value);
@@ -75,12 +80,27 @@ struct Slope {
   Rational at(const Rational& y) const { return upper.x + (y - upper.y) * inverse; }
 };
 
-// Pixel columns [begin, end) of one axis whose sample, `offset` into its pixel, lies in [low, high).
-std::pair<int, int> columns(const Rational& low, const Rational& high, const Rational& offset, int extent) {
+// The pixels [begin, end) of one axis that may be covered.
+struct Pixels {
+  int begin;
+  int end;
+};
+
+// Those of the target that the scissor, if there is one, leaves.
+Pixels left_by_scissor(int extent, const std::optional<Rect>& scissor, int Rect::*start, int Rect::*size) {
+  if (!scissor) return {0, extent};
+  const Integer begin = (*scissor).*start;
+  const Integer end = begin + (*scissor).*size;
+  if (begin >= extent || end <= 0 || begin >= end) return {0, 0};
+  return {begin < 0 ? 0 : static_cast<int>(begin), end > extent ? extent : static_cast<int>(end)};
+}
+
+// Those of them whose sample, `offset` into its pixel, lies in [low, high).
+Pixels columns(const Rational& low, const Rational& high, const Rational& offset, const Pixels& within) {
   const auto clamped = [&](const Rational& bound) {
     const Integer column = ceil(Rational(bound - offset));
-    if (column <= 0) return 0;
-    return column >= extent ? extent : static_cast<int>(column);
+    if (column <= within.begin) return within.begin;
+    return column >= within.end ? within.end : static_cast<int>(column);
   };
   return {clamped(low), clamped(high)};
 }
@@ -107,13 +127,15 @@ void cover_by_shift(const Setting& setting, const Rules& rules, const Triangle& 
     if (upper->y > lower->y) std::swap(upper, lower);
     slopes.push_back({*upper, lower->y, (lower->x - upper->x) / (lower->y - upper->y)});
   }
+  const Pixels across = left_by_scissor(setting.target.width, setting.scissor, &Rect::x, &Rect::width);
+  const Pixels down = left_by_scissor(setting.target.height, setting.scissor, &Rect::y, &Rect::height);
   const auto [top, bottom] = std::minmax({points[0].y, points[1].y, points[2].y});
 
   for (int s = 0; s < setting.samples(); ++s) {
     const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(s)];
     const Rational offset_x(location.x, 1 << kSampleGridBits);
     const Rational offset_y(location.y, 1 << kSampleGridBits);
-    const auto [row_begin, row_end] = columns(top, bottom, offset_y, setting.target.height);
+    const auto [row_begin, row_end] = columns(top, bottom, offset_y, down);
     for (int row = row_begin; row < row_end; ++row) {
       const Rational y = row + offset_y;
       std::array<Rational, 2> crossings;
@@ -122,7 +144,7 @@ void cover_by_shift(const Setting& setting, const Rules& rules, const Triangle& 
         if (slope.upper.y <= y && y < slope.end) crossings.at(found++) = slope.at(y);
       }
       if (crossings[1] < crossings[0]) std::swap(crossings[0], crossings[1]);
-      const auto [begin, end] = columns(crossings[0], crossings[1], offset_x, setting.target.width);
+      const auto [begin, end] = columns(crossings[0], crossings[1], offset_x, across);
       for (int x = begin; x < end; ++x) cover(mask, layout.bit(x, row, s));
     }
   }

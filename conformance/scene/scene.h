@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "conformance/scene/setting.h"
@@ -27,12 +29,57 @@ struct Mesh {
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
+/// A position before clipping, perspective division and the viewport transform.
+struct ClipPosition {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  float w = 1;
+  friend bool operator==(const ClipPosition&, const ClipPosition&) = default;
+};
+
+using ClipTriangle = std::array<ClipPosition, 3>;
+
+/// The viewport transform in Vulkan's terms: x = -1 lies at `x`, +1 at `x + width`, likewise y; a negative height flips.
+/// Pixels; any finite values with a width above 0 and a height other than 0.
+struct Viewport {
+  float x = 0;
+  float y = 0;
+  float width = 0;
+  float height = 0;
+  friend bool operator==(const Viewport&, const Viewport&) = default;
+};
+
+/// Geometry that the rasterizer under test has to clip and transform itself. Depth runs from 0 to w, as in Vulkan.
+struct ClipGeometry {
+  Viewport viewport;
+  std::vector<ClipTriangle> triangles;
+};
+
+enum class Topology { list, strip, fan };
+
+/// Ends one strip or fan and begins the next, in Assembly::indices.
+inline constexpr std::uint32_t kRestartIndex = 0xffffffff;
+
+/// How triangles are handed to a rasterizer that assembles them itself. Odd triangles of a strip have their first two
+/// vertices swapped, so that all face the same way; triangle i of a fan is (0, i + 1, i + 2).
+struct Assembly {
+  Topology topology = Topology::list;
+  std::vector<Position> vertices;
+  /// Vertex numbers or kRestartIndex; empty draws the vertices in their order.
+  std::vector<std::uint32_t> indices;
+};
+
 /// Plain data. Every position is finite; every mesh range lies inside `triangles`.
 struct Scene {
   Setting setting;
   Rules rules;
   std::vector<Triangle> triangles;
   std::vector<Mesh> meshes;
+  /// If present, `triangles` is what it assembles to, in order, and a subject is fed the assembly.
+  std::optional<Assembly> assembly{};
+  /// If present, `triangles` and `meshes` are empty: a subject is fed this, and what it covers depends on its clipper.
+  std::optional<ClipGeometry> clip{};
 };
 
 }  // namespace edgecase::conformance

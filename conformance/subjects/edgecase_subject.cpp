@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "conformance/subjects/family_subject.h"
 #include "rasterizer/rasterizer.h"
@@ -31,16 +33,35 @@ Failure check_range(const Scene& scene) {
   return std::nullopt;
 }
 
-template <class F>
-Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
+/// The scene's samples; nothing if the rasterizer cannot take them.
+std::optional<rasterizer::SamplePattern> sample_pattern(const Setting& setting) {
+  std::vector<rasterizer::SampleLocation> locations;
+  for (const SampleLocation& location : setting.sample_locations) locations.push_back({location.x, location.y});
+  return rasterizer::SamplePattern::make(locations);
+}
+
+template <class F, class View>
+Failure draw_into(const View& view, const Scene& scene, MaskBatch& masks) {
   rasterizer::FixedTriangle<F> snapped;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
-    const auto mask = rasterizer::Mask::over(target, masks[i]);
-    rasterizer::cover_scalar<F>(snapped, target,
-                                [&](int y, int word, std::uint64_t bits) { mask->add(y, word, bits); });
+    const auto mask = rasterizer::Mask::over(view.target, masks[i], view.samples.count());
+    rasterizer::cover_scalar<F>(snapped, view, [&](int y, int word, std::uint64_t bits) { mask->add(y, word, bits); });
   }
   return std::nullopt;
+}
+
+template <class F>
+Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
+  using rasterizer::SamplePattern, rasterizer::Scissor;
+  const Setting& setting = scene.setting;
+  const bool centred = setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{};
+  if (centred && !setting.scissor) return draw_into<F>(rasterizer::View<>{target}, scene, masks);
+  const Rect scissor = setting.scissor.value_or(Rect{0, 0, setting.target.width, setting.target.height});
+  return draw_into<F>(
+      rasterizer::View<SamplePattern, Scissor>{
+          target, *sample_pattern(setting), {scissor.x, scissor.y, scissor.width, scissor.height}},
+      scene, masks);
 }
 
 struct FormatEntry {
@@ -61,7 +82,11 @@ class EdgecaseSubject : public Subject {
  public:
   explicit EdgecaseSubject(std::string name) {
     info_.name = std::move(name);
+    info_.sample_counts.resize(rasterizer::kMaxSamples);
+    std::iota(info_.sample_counts.begin(), info_.sample_counts.end(), 1);
     info_.max_target = rasterizer::kMaxExtent;
+    info_.follows_scene_rules = true;
+    info_.scissor = true;
     info_.max_coordinate = 32768.0 - 1.0 / 256;
   }
 
@@ -73,9 +98,13 @@ class EdgecaseSubject : public Subject {
       return fmt::format("target {}x{} is not from 1 to {} pixels a side", setting.target.width, setting.target.height,
                          info_.max_target);
     }
-    if (setting.samples() != 1) return fmt::format("{} samples a pixel", setting.samples());
-    if (setting.sample_locations[0] != SampleLocation{}) return "a sample off the pixel's centre";
-    if (scene.rules.rounding != SnapRounding::nearest_even) return "snaps to nearest even only";
+    if (setting.samples() < 1 || setting.samples() > rasterizer::kMaxSamples) {
+      return fmt::format("{} samples a pixel", setting.samples());
+    }
+    if (!sample_pattern(setting)) return "a sample off the sixteenths of a pixel";
+    if (scene.rules.rounding != SnapRounding::nearest_even || scene.rules.half_pixel_first) {
+      return "snaps to nearest even only";
+    }
     const int bits = scene.rules.subpixel_bits;
     if (bits < 0 || static_cast<std::size_t>(bits) >= kFormats) return fmt::format("{} subpixel bits", bits);
     if (const auto error = kFormatTable[static_cast<std::size_t>(bits)].check_range(scene)) {

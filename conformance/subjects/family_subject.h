@@ -10,8 +10,13 @@
 
 namespace edgecase::conformance {
 
+struct FamilySubjectName {
+  std::string_view name;
+  std::string_view about;  ///< one line for a person
+};
+
 /// The names that make_family_subject() knows, in the order of the family.
-std::vector<std::string_view> family_subjects();
+std::vector<FamilySubjectName> family_subjects();
 
 /// `edgecase:NAME` for the member of the family of that name; null for any other.
 ///

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -160,9 +161,9 @@ struct Box {
   std::int64_t left, top, right, bottom;
 };
 
-/// The pixels of the target that have a sample, at one of `locations`, inside the bounding box of `points`. All in
-/// units of 2^-bits px.
-Box pixel_box(const std::array<Point, 3>& points, const std::vector<Point>& locations, Extent target, int bits,
+/// The pixels of the target, and of the scissor, that have a sample, at one of `locations`, inside the bounding box of
+/// `points`. All in units of 2^-bits px.
+Box pixel_box(const std::array<Point, 3>& points, const std::vector<Point>& locations, const Setting& setting, int bits,
               Fault fault) {
   const auto by_x = [](const Point& p, const Point& q) { return p.x < q.x; };
   const auto by_y = [](const Point& p, const Point& q) { return p.y < q.y; };
@@ -177,8 +178,13 @@ Box pixel_box(const std::array<Point, 3>& points, const std::vector<Point>& loca
   if (fault == Fault::box_short_top) ++box.top;
   if (fault == Fault::box_short_right) --box.right;
   if (fault == Fault::box_short_bottom) --box.bottom;
-  return {std::max<std::int64_t>(box.left, 0), std::max<std::int64_t>(box.top, 0),
-          std::min<std::int64_t>(box.right, target.width - 1), std::min<std::int64_t>(box.bottom, target.height - 1)};
+  const auto intersect = [&](std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height) {
+    box = {std::max(box.left, x), std::max(box.top, y), std::min(box.right, x + width - 1),
+           std::min(box.bottom, y + height - 1)};
+  };
+  intersect(0, 0, setting.target.width, setting.target.height);
+  if (const auto& scissor = setting.scissor) intersect(scissor->x, scissor->y, scissor->width, scissor->height);
+  return box;
 }
 
 void draw_triangle(const Scene& scene, const Triangle& triangle, Fault fault, MutableMaskView mask) {
@@ -206,7 +212,7 @@ void draw_triangle(const Scene& scene, const Triangle& triangle, Fault fault, Mu
                                           edge_function(points[1], points[2], fault),
                                           edge_function(points[2], points[0], fault)};
 
-  const Box box = pixel_box(points, locations, layout.target, bits, fault);
+  const Box box = pixel_box(points, locations, scene.setting, bits, fault);
   for (std::int64_t y = box.top; y <= box.bottom; ++y) {
     for (std::int64_t x = box.left; x <= box.right; ++x) {
       for (std::size_t s = 0; s < locations.size(); ++s) {
@@ -227,14 +233,19 @@ class FaultSubject : public Subject {
  public:
   FaultSubject(Fault fault, std::string_view name) : fault_(fault) {
     info_.name = fmt::format("fault:{}", name);
-    info_.sample_counts = {1, 2, 4, 8, 16};
+    info_.follows_scene_rules = true;
+    info_.sample_counts.resize(16);
+    std::iota(info_.sample_counts.begin(), info_.sample_counts.end(), 1);
     info_.max_coordinate = 32768.0 - 1.0 / 256;
+    info_.scissor = true;
   }
 
   const SubjectInfo& info() const override { return info_; }
 
   std::optional<std::string> refusal(const Scene& scene) const override {
-    if (scene.rules.rounding != SnapRounding::nearest_even) return "snaps to nearest even only";
+    if (scene.rules.rounding != SnapRounding::nearest_even || scene.rules.half_pixel_first) {
+      return "snaps to nearest even only";
+    }
     return Subject::refusal(scene);
   }
 

@@ -99,6 +99,9 @@ class InexactSubject : public Subject {
     const Setting& setting = scene.setting;
     if (setting.samples() == 1 && setting.sample_locations[0] != SampleLocation{})
       return "a sample off the pixel's centre";
+    if (setting.cull != CullMode::none) return "culling";
+    if (scene.assembly) return "primitives to be assembled";
+    if (scene.clip) return "clip-space geometry";
     return Subject::refusal(scene);
   }
 

@@ -17,6 +17,7 @@ std::optional<std::string> Subject::refusal(const Scene& scene) const {
   if (std::find(self.sample_counts.begin(), self.sample_counts.end(), samples) == self.sample_counts.end()) {
     return fmt::format("{} samples a pixel", samples);
   }
+  if (scene.setting.scissor && !self.scissor) return "a scissor rectangle";
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     for (std::size_t v = 0; v < 3; ++v) {
       const Position& position = scene.triangles[i][v];

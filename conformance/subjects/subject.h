@@ -21,8 +21,12 @@ struct SubjectInfo {
   std::string device;
   /// The snap that this subject declares; expectations are computed with it.
   Rules rules;
+  /// Whether it draws under the rules that each scene asks for, rather than always under `rules`.
+  bool follows_scene_rules = false;
   std::vector<int> sample_counts{1};
   int max_target = kMaxTargetExtent;
+  /// Whether a scissor rectangle can be set.
+  bool scissor = false;
   /// Window coordinates from -max_coordinate to +max_coordinate reach the rasterizer exactly.
   double max_coordinate = 0;
 };
@@ -33,12 +37,18 @@ class Subject {
 
   virtual const SubjectInfo& info() const = 0;
 
-  /// Why this scene lies outside what the subject can do, in one phrase; nothing if it can be drawn.
+  /// Why this scene lies outside what the subject can do, in one phrase; nothing if it can be drawn. The default judges
+  /// by info(): the target's size, the sample count, and every coordinate against max_coordinate. Positions off the
+  /// subpixel grid are fine.
   virtual std::optional<std::string> refusal(const Scene& scene) const;
 
   /// Draws every triangle of `scene` on its own into `masks`, which it resizes: mask i holds exactly the samples that
   /// triangle i covered. Called only for scenes that are not refused.
   virtual tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) = 0;
+
+  /// Seconds that all draws so far took inside the driver itself, from submission to the last finished sample: what
+  /// would be spent without this suite around it. 0 for a subject that does not measure it.
+  virtual double driver_seconds() const { return 0; }
 };
 
 /// The subject of that name, ready to draw, or why there is none (ErrorKind::absent for a driver that is not installed,

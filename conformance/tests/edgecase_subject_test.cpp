@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 namespace edgecase::conformance {
 namespace {
@@ -65,14 +66,53 @@ TEST(EdgecaseSubject, RefusesWhatItCannotDraw) {
   };
   EXPECT_EQ(refusal([](Scene&) {}), "(none)");
   EXPECT_THAT(refusal([](Scene& s) { s.setting.target.width = 16385; }), HasSubstr("16385x4"));
-  EXPECT_EQ(refusal([](Scene& s) { s.setting.sample_locations.resize(4); }), "4 samples a pixel");
-  EXPECT_THAT(refusal([](Scene& s) { s.setting.sample_locations[0].x = 4; }), HasSubstr("off the pixel's centre"));
+  EXPECT_EQ(refusal([](Scene& s) { s.setting.sample_locations.resize(16); }), "(none)");
+  EXPECT_EQ(refusal([](Scene& s) { s.setting.sample_locations.resize(17); }), "17 samples a pixel");
+  EXPECT_EQ(refusal([](Scene& s) { s.setting.sample_locations.clear(); }), "0 samples a pixel");
+  EXPECT_THAT(refusal([](Scene& s) { s.setting.sample_locations[0].x = 16; }), HasSubstr("off the sixteenths"));
+  EXPECT_THAT(refusal([](Scene& s) { s.setting.sample_locations[0].y = -1; }), HasSubstr("off the sixteenths"));
   EXPECT_THAT(refusal([](Scene& s) { s.rules.rounding = SnapRounding::truncate; }), HasSubstr("nearest even"));
   EXPECT_EQ(refusal([](Scene& s) { s.rules.subpixel_bits = 17; }), "17 subpixel bits");
   EXPECT_EQ(refusal([](Scene& s) { s.rules.subpixel_bits = -1; }), "-1 subpixel bits");
   EXPECT_THAT(refusal([](Scene& s) { s.triangles[0][2].y = 32768; }), HasSubstr("triangle 0, vertex 2: y = 32768"));
   EXPECT_THAT(refusal([](Scene& s) { s.triangles[0][1].x = std::numeric_limits<float>::quiet_NaN(); }),
               HasSubstr("vertex 1: x is NaN"));
+}
+
+TEST(EdgecaseSubject, SamplesOfAPixelAreNeighboursInTheMask) {
+  const auto subject = make_edgecase_subject("");
+  Scene scene = scene_of({{{{0, 0}, {1, 0}, {0, 1}}}, {{{1, 0}, {1, 1}, {0, 1}}}});
+  scene.setting.target = {2, 1};
+  scene.setting.sample_locations = {{4, 4}, {12, 12}, {8, 8}};
+  ASSERT_EQ(subject->refusal(scene), std::nullopt);
+  MaskBatch masks;
+  ASSERT_TRUE(subject->draw(scene, masks));
+  // The diagonal through the centre is a right edge, then a left one.
+  EXPECT_THAT(masks[0], testing::ElementsAre(0b001u));
+  EXPECT_THAT(masks[1], testing::ElementsAre(0b110u));
+}
+
+TEST(EdgecaseSubject, NothingIsCoveredOutsideTheScissor) {
+  const auto subject = make_edgecase_subject("");
+  Scene scene = scene_of({{{{0, 0}, {8, 0}, {0, 8}}}});
+  const auto draw = [&](const Rect& scissor) {
+    scene.setting.scissor = scissor;
+    EXPECT_EQ(subject->refusal(scene), std::nullopt);
+    MaskBatch masks;
+    EXPECT_TRUE(subject->draw(scene, masks));
+    return std::vector<std::uint64_t>(masks[0].begin(), masks[0].end());
+  };
+  constexpr int kMost = std::numeric_limits<int>::max(), kLeast = std::numeric_limits<int>::min();
+  using testing::ElementsAre;
+  EXPECT_THAT(draw({0, 0, kMost, kMost}), ElementsAre(0b1111111u, 0b111111u, 0b11111u, 0b1111u));
+  EXPECT_THAT(draw({2, 1, 3, 2}), ElementsAre(0u, 0b11100u, 0b11100u, 0u));
+  EXPECT_THAT(draw({-5, -3, 6, 4}), ElementsAre(1u, 0u, 0u, 0u));
+  EXPECT_THAT(draw({6, 0, kMost, kMost}), ElementsAre(0b1000000u, 0u, 0u, 0u));
+  for (const Rect& empty : {Rect{2, 1, 0, 2}, Rect{2, 1, 2, 0}, Rect{8, 0, 4, 4}, Rect{-4, 0, 4, 4}, Rect{3, 0, -2, 4},
+                            Rect{kLeast, 0, kLeast, 4}, Rect{kMost, kMost, kMost, kMost}}) {
+    EXPECT_THAT(draw(empty), testing::Each(0u))
+        << empty.x << " " << empty.y << " " << empty.width << " " << empty.height;
+  }
 }
 
 TEST(EdgecaseSubject, TheDeclaredRangeIsDrawn) {

@@ -126,7 +126,7 @@ TEST(RasterizerBox, HoldsExactlyTheSamplesInTheBoundingBox) {
   const auto box_of = [](const Triangle& triangle) {
     FixedTriangle<Format16_8> snapped;
     EXPECT_FALSE(snap<Format16_8>(triangle, snapped));
-    const auto box = pixel_box<Format16_8>(snapped, *Target::make(10, 6));
+    const auto box = pixel_box<Format16_8>(snapped, View<>{*Target::make(10, 6)});
     return box ? std::vector{box->left.value(), box->top.value(), box->right.value(), box->bottom.value()}
                : std::vector<int>{};
   };

@@ -63,7 +63,7 @@ class ScanEdge {
 template <class F, class Sink>
 constexpr void cover_trapezoid(const FixedTriangle<F>& triangle, const Target& target, Sink&& sink) {
   static_assert(value_bits<F> < 64);
-  const auto box = pixel_box<F>(triangle, target);
+  const auto box = pixel_box<F>(triangle, View<>{target});
   if (!box) return;
   auto [high, middle, low] = triangle;
   if (high.y > middle.y) std::swap(high, middle);
@@ -75,14 +75,16 @@ constexpr void cover_trapezoid(const FixedTriangle<F>& triangle, const Target& t
   // The first row of the box whose sample is at or below y, or the end of the box.
   const auto first_row_from = [&](typename F::Coordinate y) {
     constexpr auto kBelowOnePixel = constant<(std::int64_t{1} << F::kSampleBits) - 1>;
-    const auto row = (on_sample_grid<F>(y) - kPixelCentre<F> + kBelowOnePixel).template shifted_right<F::kSampleBits>();
+    const auto row =
+        (on_sample_grid<F>(y) - CentreSample::point<F>(0).y + kBelowOnePixel).template shifted_right<F::kSampleBits>();
     return clamp(row, box->top, box->bottom).value();
   };
   const int top = box->top.value(), split = first_row_from(middle.y), bottom = first_row_from(low.y);
   const int left = box->left.value(), width = box->right.value() - left;
 
+  const auto origin = sample_position<F>(box->left, box->top, CentreSample::point<F>(0));
   const auto edge = [&](const FixedVertex<F>& p, const FixedVertex<F>& q) {
-    const Edge<F> made = make_edge<F>(p, q, box->left, box->top);
+    const Edge<F> made = make_edge<F>(p, q, origin);
     return PlainEdge{made.a.value(), made.b.value(), made.c.value()};
   };
   const auto cover_rows = [&](const PlainEdge& left_edge, const PlainEdge& right_edge, int from, int to) {

@@ -1,0 +1,230 @@
+#include "conformance/compare/watertight.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "conformance/compare/row_bits.h"
+
+namespace edgecase::conformance {
+namespace {
+
+using Wide = __int128;
+
+std::uint64_t count(std::uint64_t bits) { return static_cast<std::uint64_t>(std::popcount(bits)); }
+
+/// Smallest integer that is not below n / d, d being positive.
+template <typename Int>
+Int ceil_div(Int n, Int d) {
+  return n / d + (n % d > 0 ? 1 : 0);
+}
+
+/// A crossing packed so that sorting orders by row, then column: row 24 bits, column 24 bits, winding change + 2^15.
+constexpr std::uint64_t kWindingBias = 1u << 15;
+
+std::uint64_t pack(std::uint64_t row, std::uint64_t column, int winding) {
+  return row << 40 | column << 16 | static_cast<std::uint64_t>(static_cast<std::int64_t>(kWindingBias) + winding);
+}
+
+/// Sets the bits from `begin` to before `end` of a row that `pattern` has.
+void fill(std::uint64_t* row, const std::uint64_t* pattern, std::size_t begin, std::size_t end) {
+  for (std::size_t word = begin / 64; word * 64 < end; ++word) {
+    std::uint64_t bits = pattern[word];
+    if (begin > word * 64) bits &= ~std::uint64_t{0} << (begin - word * 64);
+    if (end < word * 64 + 64) bits &= ~(~std::uint64_t{0} << (end - word * 64));
+    row[word] |= bits;
+  }
+}
+
+}  // namespace
+
+void Watertightness::add(const Watertightness& later) {
+  meshes += later.meshes;
+  folded_meshes += later.folded_meshes;
+  wrong_meshes += later.wrong_meshes;
+  samples_inside += later.samples_inside;
+  missing += later.missing;
+  doubled += later.doubled;
+  unexpected += later.unexpected;
+  if (!first_missing) first_missing = later.first_missing;
+  if (!first_doubled) first_doubled = later.first_doubled;
+  if (!first_unexpected) first_unexpected = later.first_unexpected;
+}
+
+WatertightChecker::WatertightChecker(const Setting& setting, int subpixel_bits)
+    : setting_(setting),
+      layout_(setting),
+      subpixel_bits_(subpixel_bits),
+      scale_bits_(std::max(subpixel_bits, kSampleGridBits)),
+      sample_words_(static_cast<std::size_t>(layout_.samples) * layout_.row_words()),
+      inside_(layout_.words()),
+      outline_(layout_.words()),
+      once_(layout_.words()),
+      twice_(layout_.words()) {
+  for (int sample = 0; sample < layout_.samples; ++sample) {
+    const MutableMaskView row =
+        std::span(sample_words_).subspan(static_cast<std::size_t>(sample) * layout_.row_words(), layout_.row_words());
+    for (int x = 0; x < layout_.target.width; ++x) cover(row, layout_.bit(x, 0, sample));
+  }
+}
+
+template <typename Int>
+void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const SampleLocation& location,
+                                  std::size_t sample) {
+  // Everything in units of 2^-scale_bits px, relative to this sample's location in pixel (0, 0), so that sample (x, y)
+  // lies at (x << scale_bits, y << scale_bits).
+  const Int unit = Int{1} << scale_bits_;
+  const auto place = [&](std::int64_t vertex, int sixteenths) {
+    return (Int{vertex} << (scale_bits_ - subpixel_bits_)) - (Int{sixteenths} << (scale_bits_ - kSampleGridBits));
+  };
+  const bool up = edge.to.y < edge.from.y;
+  const GridPoint& upper = up ? edge.to : edge.from;
+  const GridPoint& lower = up ? edge.from : edge.to;
+  const Int x0 = place(upper.x, location.x);
+  const Int y0 = place(upper.y, location.y);
+  const Int x1 = place(lower.x, location.x);
+  const Int y1 = place(lower.y, location.y);
+  const Int width = layout_.target.width;
+  const Int first_row = std::max(Int{0}, ceil_div(y0, unit));
+  const Int last_row = std::min(Int{layout_.target.height} - 1, y1 >> scale_bits_);
+  const std::size_t row_words = layout_.row_words();
+  const std::uint64_t* pattern = sample_words_.data() + sample * row_words;
+  const auto mark_outline = [&](Int row, Int begin, Int end) {
+    fill(outline_.data() + static_cast<std::size_t>(row) * row_words, pattern,
+         static_cast<std::size_t>(begin) * static_cast<std::size_t>(layout_.samples),
+         static_cast<std::size_t>(end) * static_cast<std::size_t>(layout_.samples));
+  };
+
+  if (y0 == y1) {
+    const Int begin = std::max(Int{0}, ceil_div(std::min(x0, x1), unit));
+    const Int end = std::min(width, (std::max(x0, x1) >> scale_bits_) + 1);
+    if (first_row <= last_row && begin < end) mark_outline(first_row, begin, end);
+    return;
+  }
+  // In row y the edge lies at x = (x0 * dy + (y - y0) * dx) / dy. The winding number of a sample is the sum over the
+  // edges on its left, +1 for one that goes up if the triangles turn clockwise. Rows are half open at an edge's lower
+  // end and crossings belong to the sample they hit: that is the winding number of the sample moved down and right by
+  // an infinitesimal, so it is always that of a face, and plain off the outline.
+  const Int dx = x1 - x0;
+  const Int dy = y1 - y0;
+  // An edge left over twice separates windings that are not both 0 and 1; more than that need not be told apart.
+  const int times = std::min(edge.times, 2);
+  const int winding = (up ? times : -times) * turn;
+  for (Int row = first_row; row <= last_row; ++row) {
+    const Int y = row << scale_bits_;
+    const Int numerator = x0 * dy + (y - y0) * dx;
+    const Int denominator = dy << scale_bits_;
+    const Int column = ceil_div(numerator, denominator);
+    if (column >= width) continue;
+    if (column >= 0 && column * denominator == numerator) mark_outline(row, column, column + 1);
+    if (y == y1) continue;
+    crossings_.push_back(
+        pack(static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(std::max(Int{0}, column)), winding));
+  }
+}
+
+bool WatertightChecker::fill_inside(std::size_t sample) {
+  std::sort(crossings_.begin(), crossings_.end());
+  const std::size_t row_words = layout_.row_words();
+  const auto samples = static_cast<std::size_t>(layout_.samples);
+  std::int64_t winding = 0;
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    const std::uint64_t row = crossings_[i] >> 40;
+    const std::uint64_t begin = crossings_[i] >> 16 & 0xFFFFFF;
+    winding += static_cast<std::int64_t>(crossings_[i] & 0xFFFF) - static_cast<std::int64_t>(kWindingBias);
+    const bool last_in_row = i + 1 == crossings_.size() || crossings_[i + 1] >> 40 != row;
+    const std::uint64_t end =
+        last_in_row ? static_cast<std::uint64_t>(layout_.target.width) : crossings_[i + 1] >> 16 & 0xFFFFFF;
+    if (begin < end) {
+      if (winding != 0 && winding != 1) return false;
+      if (winding == 1) {
+        fill(inside_.data() + row * row_words, sample_words_.data() + sample * row_words, begin * samples,
+             end * samples);
+      }
+    }
+    if (last_in_row) winding = 0;
+  }
+  return true;
+}
+
+template <typename Int>
+bool WatertightChecker::classify(std::span<const OutlineEdge> outline, int turn) {
+  std::fill(inside_.begin(), inside_.end(), 0);
+  std::fill(outline_.begin(), outline_.end(), 0);
+  for (std::size_t sample = 0; sample < setting_.sample_locations.size(); ++sample) {
+    crossings_.clear();
+    for (const OutlineEdge& edge : outline) scan_edge<Int>(edge, turn, setting_.sample_locations[sample], sample);
+    if (!fill_inside(sample)) return false;
+  }
+  return true;
+}
+
+void WatertightChecker::count_layers(std::span<const std::uint64_t> masks) {
+  const std::size_t words = layout_.words();
+  std::fill(once_.begin(), once_.end(), 0);
+  std::fill(twice_.begin(), twice_.end(), 0);
+  for (std::size_t mask = 0; mask < masks.size(); mask += words) {
+    for (std::size_t i = 0; i < words; ++i) {
+      twice_[i] |= once_[i] & masks[mask + i];
+      once_[i] |= masks[mask + i];
+    }
+  }
+}
+
+WrongSample WatertightChecker::locate(WrongSample::Kind kind, std::size_t word, std::uint64_t bits,
+                                      std::span<const std::uint64_t> masks, std::size_t first_triangle) const {
+  const std::size_t bit = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+  const auto [x, y, sample] = sample_index(layout_, bit);
+  WrongSample wrong{kind, first_triangle, x, y, sample};
+  int layers_to_skip = kind == WrongSample::Kind::doubled ? 1 : 0;
+  for (std::size_t mask = 0; kind != WrongSample::Kind::missing && mask < masks.size(); mask += layout_.words()) {
+    if (!covered(masks.subspan(mask, layout_.words()), bit)) continue;
+    if (layers_to_skip-- > 0) continue;
+    wrong.triangle = first_triangle + mask / layout_.words();
+    break;
+  }
+  return wrong;
+}
+
+void WatertightChecker::check(std::span<const GridTriangle> mesh, std::span<const std::uint64_t> masks,
+                              std::size_t first_triangle, Watertightness& total) {
+  assert(masks.size() == mesh.size() * layout_.words());
+  ++total.meshes;
+  const std::optional<int> turn = common_orientation(mesh);
+  // The widest value of a scan is numerator, a sum of two products of differences. Coordinates below 2^28 in scaled
+  // units keep differences below 2^30, also with the target's own extent of at most 2^30, and the sum below 2^61.
+  const std::int64_t narrow = std::int64_t{1} << 28 >> (scale_bits_ - subpixel_bits_);
+  const bool fits = static_cast<std::int64_t>(kMaxTargetExtent) << scale_bits_ <= std::int64_t{1} << 28 &&
+                    std::all_of(mesh.begin(), mesh.end(), [&](const GridTriangle& triangle) {
+                      return std::all_of(triangle.begin(), triangle.end(), [&](const GridPoint& p) {
+                        return -narrow < p.x && p.x < narrow && -narrow < p.y && p.y < narrow;
+                      });
+                    });
+  const std::span<const OutlineEdge> outline = builder_.build(mesh);
+  if (!turn || !(fits ? classify<std::int64_t>(outline, *turn) : classify<Wide>(outline, *turn))) {
+    ++total.folded_meshes;
+    return;
+  }
+  count_layers(masks);
+
+  bool wrong = false;
+  const auto report = [&](WrongSample::Kind kind, std::size_t word, std::uint64_t bits, std::uint64_t& counter,
+                          std::optional<WrongSample>& first) {
+    if (bits == 0) return;
+    wrong = true;
+    counter += count(bits);
+    if (!first) first = locate(kind, word, bits, masks, first_triangle);
+  };
+  for (std::size_t i = 0; i < layout_.words(); ++i) {
+    const std::uint64_t samples = sample_bits(layout_, i % layout_.row_words());
+    const std::uint64_t strictly_inside = inside_[i] & ~outline_[i];
+    const std::uint64_t outside = ~(inside_[i] | outline_[i]) & samples;
+    total.samples_inside += count(strictly_inside);
+    report(WrongSample::Kind::missing, i, strictly_inside & ~once_[i], total.missing, total.first_missing);
+    report(WrongSample::Kind::doubled, i, twice_[i] & ~outside & samples, total.doubled, total.first_doubled);
+    report(WrongSample::Kind::unexpected, i, once_[i] & outside, total.unexpected, total.first_unexpected);
+  }
+  if (wrong) ++total.wrong_meshes;
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,78 @@
+// What the results of a report add up to: shared by its forms, so that they cannot disagree.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "conformance/report/report.h"
+
+namespace edgecase::conformance {
+
+struct Totals {
+  std::uint64_t pass = 0;
+  std::uint64_t fail = 0;
+  std::uint64_t known = 0;
+  std::uint64_t skip = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t samples_compared = 0;
+  std::uint64_t missing = 0;
+  std::uint64_t unexpected = 0;
+  std::uint64_t doubled = 0;
+
+  std::uint64_t cases() const { return pass + fail + known + skip; }
+  void add(const Result& result);
+};
+
+Totals totals_of(const Report& report);
+
+/// The results of one subject.
+struct SubjectSummary {
+  std::string name;
+  std::string device;  ///< the first that is not empty
+  Totals totals;
+  Totals failed;                     ///< of its failed results alone
+  Totals known;                      ///< of its known deviations alone
+  std::vector<std::size_t> results;  ///< indices into Report::results, ascending
+};
+
+/// In the order in which the subjects first occur.
+std::vector<SubjectSummary> by_subject(const Report& report);
+
+/// Some results of one subject that belong together.
+struct ResultGroup {
+  std::string category;
+  Verdict verdict = Verdict::pass;
+  std::uint64_t category_size = 0;  ///< results of the subject in that category, whatever their verdict
+  std::vector<std::size_t> results;
+};
+
+/// The results of a subject by category, and within a category by verdict, each in the order of first occurrence.
+std::vector<ResultGroup> by_category(const Report& report, const SubjectSummary& subject);
+
+/// One sentence without its full stop that somebody who has never seen a report understands:
+/// "lavapipe (llvmpipe (LLVM 15.0.6)) agrees on every one of 1,024 samples of 4 triangles".
+std::string sentence(const SubjectSummary& subject);
+
+/// "12 missing, 3 unexpected, 1 doubled" of those that are not zero; "" if all are. They are not added up, because a
+/// sample that is unexpected in a triangle may be doubled in its mesh as well.
+std::string wrong_samples(std::uint64_t missing, std::uint64_t unexpected, std::uint64_t doubled);
+
+/// What is to be said of one result, line by line: its reason, how many samples are wrong, the first of them and the
+/// command that shows it again. What is not there has no line; names hold no line breaks.
+std::string details(const Result& result);
+
+/// "missing at pixel (12, 7), sample 0, triangle 5".
+std::string place(const FirstWrong& first);
+
+/// "(0x1.8p+0, 0x0p+0) (0x1.8p+0, 0x1.8p+1) (0x1p+2, 0x1.8p+1)".
+std::string vertices(const FirstWrong& first);
+
+/// 1234567 as 1,234,567.
+std::string grouped(std::uint64_t number);
+
+/// "1 case", "2,000 cases".
+std::string counted(std::uint64_t number, const char* noun);
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,119 @@
+#include "conformance/subjects/worker_subject.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "conformance/scene/standard_samples.h"
+
+namespace edgecase::conformance {
+namespace {
+
+// Mask bytes of one draw: small enough that clearing, drawing and copying them stays in the cache, large enough that
+// what a draw costs besides its triangles vanishes. A single larger mask still is one draw.
+constexpr std::size_t kPartBytes = std::size_t{2} << 20;
+
+// Far above what a software rasterizer needs for a sample on a loaded machine.
+constexpr double kMicrosecondsPerSample = 2;
+
+std::size_t aligned(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+
+}  // namespace
+
+tl::expected<std::unique_ptr<Subject>, Error> WorkerSubject::start(const std::string& name, WorkerCommand command) {
+  auto worker = WorkerProcess::start(command);
+  if (!worker) return tl::unexpected(Error{worker.error().kind, fmt::format("{}: {}", name, worker.error().message)});
+  return std::unique_ptr<Subject>(new WorkerSubject(name, std::move(command), std::move(*worker)));
+}
+
+WorkerSubject::WorkerSubject(const std::string& name, WorkerCommand command, std::unique_ptr<WorkerProcess> worker)
+    : command_(std::move(command)),
+      worker_(std::move(worker)),
+      viewport_(static_cast<float>(worker_->hello().max_coordinate)),
+      max_mask_bytes_(worker_->hello().max_mask_bytes) {
+  const WorkerHello& hello = worker_->hello();
+  info_.name = name;
+  info_.device = hello.device.view();
+  info_.rules = hello.rules;
+  info_.sample_counts.assign(hello.sample_counts.begin(), hello.sample_counts.begin() + hello.sample_count_number);
+  info_.max_target = hello.max_target;
+  info_.max_coordinate = hello.max_coordinate;
+}
+
+std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
+  if (auto reason = Subject::refusal(scene)) return reason;
+  if (scene.setting.cull != CullMode::none) return "culling";
+  if (scene.assembly) return "primitives that the driver would assemble";
+  if (scene.clip) return "clip-space geometry";
+  if (!has_standard_samples(scene.setting)) return "sample locations other than the standard ones";
+  const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
+  if (mask_bytes > max_mask_bytes_) {
+    return fmt::format("a mask of {} bytes is larger than its largest buffer, {}", mask_bytes, max_mask_bytes_);
+  }
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Position& p = scene.triangles[t][v];
+      if (!viewport_.carries(p)) {
+        return fmt::format("triangle {}, vertex {}: ({}, {}) does not pass the viewport transform unchanged", t, v, p.x,
+                           p.y);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+tl::expected<void, Error> WorkerSubject::draw(const Scene& scene, MaskBatch& masks) {
+  const MaskLayout layout(scene.setting);
+  masks.reset(layout, scene.triangles.size());
+  const std::size_t mask_bytes = layout.words() * sizeof(std::uint64_t);
+  const std::size_t part = std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
+  for (std::size_t first = 0; first < scene.triangles.size(); first += part) {
+    const std::size_t count = std::min(part, scene.triangles.size() - first);
+    if (auto drawn = draw_part(scene, first, count, masks); !drawn) {
+      return tl::unexpected(Error{drawn.error().kind, fmt::format("{}: {}", info_.name, drawn.error().message)});
+    }
+  }
+  return {};
+}
+
+tl::expected<void, Error> WorkerSubject::draw_part(const Scene& scene, std::size_t first, std::size_t count,
+                                                   MaskBatch& masks) {
+  if (!worker_) {
+    auto restarted = WorkerProcess::start(command_);
+    if (!restarted) return tl::unexpected(restarted.error());
+    worker_ = std::move(*restarted);
+  }
+  const MaskLayout layout(scene.setting);
+  const std::size_t mask_bytes = layout.words() * sizeof(std::uint64_t) * count;
+  DrawRequest request;
+  request.width = layout.target.width;
+  request.height = layout.target.height;
+  request.samples = layout.samples;
+  request.triangles = count;
+  request.masks_offset = aligned(count * sizeof(Triangle));
+  SharedMemory& memory = worker_->memory();
+  if (auto grown = memory.grow(request.masks_offset + mask_bytes); !grown) return grown;
+  request.memory_bytes = memory.size();
+
+  std::memcpy(memory.data(), &scene.triangles[first], count * sizeof(Triangle));
+  const auto drawing = std::chrono::milliseconds(
+      static_cast<std::int64_t>(static_cast<double>(layout.sample_count() * count) * kMicrosecondsPerSample / 1000));
+  const auto reply = worker_->draw(request, command_.time_limit + drawing);
+  if (!reply) {
+    worker_.reset();
+    return tl::unexpected(
+        Error{reply.error().kind, fmt::format("drawing triangles {} to {} of {}, the driver {}", first,
+                                              first + count - 1, scene.triangles.size(), reply.error().message)});
+  }
+  if (!reply->status.ok) {
+    worker_.reset();  // A driver that refused what it said it could do is not trusted with the next draw.
+    return tl::unexpected(Error{reply->status.kind, std::string(reply->status.message.view())});
+  }
+  driver_seconds_ += reply->driver_seconds;
+  std::memcpy(masks[first].data(), memory.data() + request.masks_offset, mask_bytes);
+  return {};
+}
+
+}  // namespace edgecase::conformance

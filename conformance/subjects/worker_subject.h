@@ -1,0 +1,42 @@
+// A subject whose driver runs in a worker process of its own, so that it can crash, hang or need its own environment.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "conformance/subjects/enclosing_viewport.h"
+#include "conformance/subjects/subject.h"
+#include "conformance/subjects/worker_process.h"
+
+namespace edgecase::conformance {
+
+/// A crash or hang is an Error{ErrorKind::subject} naming the signal and the triangles that were being drawn; the next
+/// draw starts a new worker. One instance is used from one thread at a time; several instances are independent.
+class WorkerSubject final : public Subject {
+ public:
+  /// Starts the worker and asks it what it can do.
+  static tl::expected<std::unique_ptr<Subject>, Error> start(const std::string& name, WorkerCommand command);
+
+  const SubjectInfo& info() const override { return info_; }
+  /// The default's reasons, and: culling, assembled primitives, clip-space geometry, sample locations other than the
+  /// standard ones, a mask larger than the driver's largest buffer, a vertex that the driver's viewport transform would
+  /// change.
+  std::optional<std::string> refusal(const Scene& scene) const override;
+  tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override;
+  double driver_seconds() const override { return driver_seconds_; }
+
+ private:
+  WorkerSubject(const std::string& name, WorkerCommand command, std::unique_ptr<WorkerProcess> worker);
+  tl::expected<void, Error> draw_part(const Scene& scene, std::size_t first, std::size_t count, MaskBatch& masks);
+
+  WorkerCommand command_;
+  std::unique_ptr<WorkerProcess> worker_;  ///< none after a crash
+  SubjectInfo info_;
+  EnclosingViewport viewport_;
+  std::size_t max_mask_bytes_;
+  double driver_seconds_ = 0;
+};
+
+}  // namespace edgecase::conformance

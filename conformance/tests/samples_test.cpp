@@ -1,0 +1,175 @@
+// Sample locations and scissors: our rasterizer, the faults' host and both oracles against each other, and the standard
+// patterns by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "conformance/generators/random.h"
+#include "conformance/oracle/oracle.h"
+#include "conformance/subjects/edgecase_subject.h"
+#include "conformance/subjects/fault_subject.h"
+
+namespace edgecase::conformance {
+namespace {
+
+/// Vulkan's standardSampleLocations, the same as D3D's standard patterns.
+const std::vector<std::vector<SampleLocation>> kStandard = {
+    {{8, 8}},
+    {{12, 12}, {4, 4}},
+    {{6, 2}, {14, 6}, {2, 10}, {10, 14}},
+    {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}},
+    {{9, 9},
+     {7, 5},
+     {5, 10},
+     {12, 7},
+     {3, 6},
+     {10, 13},
+     {13, 11},
+     {11, 3},
+     {6, 14},
+     {8, 1},
+     {4, 2},
+     {2, 12},
+     {0, 8},
+     {15, 4},
+     {14, 15},
+     {1, 0}},
+};
+
+class Judges {
+ public:
+  /// That everyone gives the same masks for `scene`. Our rasterizer is asked for every triangle, the oracles for one in
+  /// `oracle_share`.
+  void expect_agreement(const Scene& scene, std::size_t oracle_share) {
+    ASSERT_EQ(ours_->refusal(scene), std::nullopt);
+    ASSERT_TRUE(ours_->draw(scene, observed_));
+    ASSERT_EQ(host_->refusal(scene), std::nullopt);
+    ASSERT_TRUE(host_->draw(scene, expected_));
+    std::vector<std::uint64_t> mask(MaskLayout(scene.setting).words());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+      ASSERT_TRUE(std::ranges::equal(observed_[i], expected_[i])) << "the host, triangle " << i;
+      if (i % oracle_share != 0) continue;
+      oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], mask);
+      ASSERT_TRUE(std::ranges::equal(observed_[i], mask)) << "by definition, triangle " << i;
+      oracle::cover_by_shift(scene.setting, scene.rules, scene.triangles[i], mask);
+      ASSERT_TRUE(std::ranges::equal(observed_[i], mask)) << "by shift, triangle " << i;
+    }
+  }
+
+ private:
+  std::unique_ptr<Subject> ours_ = make_edgecase_subject("");
+  std::unique_ptr<Subject> host_ = make_faultless_subject();
+  MaskBatch observed_, expected_;
+};
+
+/// Triangles near the target on the half pixels, on the sixteenths (where most standard samples are hit exactly), or on
+/// the subpixel grid; one in eight reaches far out.
+std::vector<Triangle> random_triangles(Random& random, int subpixel_bits, std::size_t count) {
+  std::vector<Triangle> triangles(count);
+  for (Triangle& triangle : triangles) {
+    const int kinds[] = {1, std::min(4, subpixel_bits), subpixel_bits};
+    const int bits = kinds[random.between(0, 2)];
+    const std::int64_t reach = random.one_in(8) ? 30'000 : 40;
+    for (Position& position : triangle) {
+      const auto coordinate = [&] {
+        return std::ldexp(static_cast<float>(random.between(-reach / 4 << bits, reach << bits)), -bits);
+      };
+      position = {coordinate(), coordinate()};
+    }
+  }
+  return triangles;
+}
+
+Rect random_scissor(Random& random) {
+  const auto at = [&] { return static_cast<int>(random.between(-8, 24)); };
+  return {at(), at(), at(), at()};
+}
+
+TEST(Samples, EveryoneAgreesOnStandardAndCustomLocations) {
+  Random random(11);
+  Judges judges;
+  for (int round = 0; round < 200; ++round) {
+    Scene scene;
+    scene.rules.subpixel_bits = static_cast<int>(random.between(1, 14));
+    scene.setting.target = {static_cast<int>(random.between(1, 24)), static_cast<int>(random.between(1, 24))};
+    if (random.one_in(3)) {
+      scene.setting.sample_locations.resize(static_cast<std::size_t>(random.between(1, 16)));
+      for (SampleLocation& location : scene.setting.sample_locations) {
+        location = {static_cast<int>(random.between(0, 15)), static_cast<int>(random.between(0, 15))};
+      }
+    } else {
+      scene.setting.sample_locations = kStandard[static_cast<std::size_t>(random.between(0, 4))];
+    }
+    if (random.one_in(2)) scene.setting.scissor = random_scissor(random);
+    scene.triangles = random_triangles(random, scene.rules.subpixel_bits, 100);
+    ASSERT_NO_FATAL_FAILURE(judges.expect_agreement(scene, 20)) << "round " << round;
+  }
+}
+
+// A triangle whose bounding box ends exactly on the outermost samples of a pattern, on each side: what a box that knows
+// only the centre, or only the first sample, loses.
+TEST(Samples, TrianglesThatTouchTheOutermostSamples) {
+  Judges judges;
+  for (const auto& locations : kStandard) {
+    Scene scene;
+    scene.setting.target = {5, 5};
+    scene.setting.sample_locations = locations;
+    for (const SampleLocation& location : locations) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = -1; dy <= 1; ++dy) {
+          const float x = 2 + static_cast<float>(location.x) / 16 + static_cast<float>(dx) / 256;
+          const float y = 2 + static_cast<float>(location.y) / 16 + static_cast<float>(dy) / 256;
+          for (const float far : {-3.0f, 3.0f}) {
+            scene.triangles.push_back({{{x, y}, {x + far, y}, {x, y + far}}});
+            scene.triangles.push_back({{{x, y}, {x + far, y}, {x, y - far}}});
+          }
+        }
+      }
+    }
+    ASSERT_NO_FATAL_FAILURE(judges.expect_agreement(scene, 1)) << locations.size() << " samples";
+  }
+}
+
+// Rows of 3 samples a pixel end in the middle of a pixel; 21 pixels are 63 bits, 22 are 66.
+TEST(Samples, PixelsThatStraddleTwoWords) {
+  Judges judges;
+  Random random(12);
+  Scene scene;
+  scene.setting.target = {66, 3};
+  scene.setting.sample_locations = {{2, 2}, {8, 13}, {15, 0}};
+  scene.triangles = random_triangles(random, 8, 2'000);
+  scene.triangles.push_back({{{-100, -100}, {300, -100}, {-100, 300}}});
+  ASSERT_NO_FATAL_FAILURE(judges.expect_agreement(scene, 20));
+}
+
+TEST(Samples, OneSampleOffTheCentreIsThePixelMoved) {
+  // Moving sample and triangle by the same amount changes nothing.
+  Random random(13);
+  const auto ours = make_edgecase_subject("");
+  Scene centred;
+  centred.setting.target = {16, 16};
+  centred.triangles = random_triangles(random, 8, 500);
+  Scene moved = centred;
+  moved.setting.sample_locations = {{3, 13}};
+  for (Triangle& triangle : moved.triangles) {
+    for (Position& p : triangle) p = {p.x - 5.0f / 16, p.y + 5.0f / 16};
+  }
+  MaskBatch expected, observed;
+  ASSERT_TRUE(ours->draw(centred, expected) && ours->draw(moved, observed));
+  for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_TRUE(std::ranges::equal(expected[i], observed[i])) << i;
+}
+
+TEST(Scissor, ExplanationsHonourIt) {
+  Setting setting;
+  setting.target = {4, 4};
+  const Triangle triangle{{{0, 0}, {8, 0}, {0, 8}}};
+  setting.scissor = Rect{1, 1, 2, 2};
+  EXPECT_TRUE(oracle::explain(setting, {}, triangle, 1, 1, 0).inside);
+  EXPECT_FALSE(oracle::explain(setting, {}, triangle, 0, 1, 0).inside);
+  EXPECT_FALSE(oracle::explain(setting, {}, triangle, 1, 3, 0).inside);
+}
+
+}  // namespace
+}  // namespace edgecase::conformance
