@@ -70,7 +70,7 @@ class Plain : public Contender {
   }
   void cover(std::size_t i, MutableMaskView mask) override {
     const auto target = *rasterizer::Target::make(setting_.target.width, setting_.target.height);
-    const auto box = rasterizer::pixel_box<Format>(triangles_[i], target);
+    const auto box = rasterizer::pixel_box<Format>(triangles_[i], rasterizer::View<>{target});
     if (!box) return;
     // Of the bytes, only those in the box can have been written.
     const MaskLayout layout(setting_);

@@ -112,7 +112,7 @@ class Expectation {
     }
     const auto mask = *rasterizer::Mask::over(target_, words_);
     rasterizer::cover_scalar<rasterizer::Format16_8>(
-        snapped, target_, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
+        snapped, rasterizer::View<>{target_}, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
     return {};
   }
 

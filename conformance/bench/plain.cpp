@@ -55,16 +55,18 @@ EDGECASE_CLONES void step64(const Steps<std::int64_t>& edges, const Box& box, st
 
 void cover_plain(const rasterizer::FixedTriangle<Format>& triangle, const rasterizer::Target& target,
                  std::uint8_t* pixels) {
-  const auto box = rasterizer::pixel_box<Format>(triangle, target);
-  if (!box) return;
-  const auto edges = rasterizer::make_edges<Format>(triangle, box->left, box->top);
-  if (!edges) return;
+  const auto box = rasterizer::pixel_box<Format>(triangle, rasterizer::View<>{target});
+  const auto turned = rasterizer::turned_clockwise<Format>(triangle);
+  if (!box || !turned) return;
+  const auto origin =
+      rasterizer::sample_position<Format>(box->left, box->top, rasterizer::CentreSample::point<Format>(0));
+  const auto edges = rasterizer::make_edges<Format>(*turned, origin);
   const std::ptrdiff_t stride = target.width().value();
   const Box size{box->right.value() - box->left.value(), box->bottom.value() - box->top.value(), stride};
   Steps<std::int64_t> wide;
   std::int64_t largest = 0;
   for (std::size_t e = 0; e < 3; ++e) {
-    wide.a[e] = (*edges)[e].a.value(), wide.b[e] = (*edges)[e].b.value(), wide.c[e] = (*edges)[e].c.value();
+    wide.a[e] = edges[e].a.value(), wide.b[e] = edges[e].b.value(), wide.c[e] = edges[e].c.value();
     // One step beyond the box is added and never looked at; it must fit, too.
     largest =
         std::max(largest, std::abs(wide.c[e]) + std::abs(wide.a[e]) * size.width + std::abs(wide.b[e]) * size.height);

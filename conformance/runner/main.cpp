@@ -40,14 +40,15 @@ void add_show(CLI::App& app, ShowOptions& options) {
 }
 
 void add_bench(CLI::App& app, BenchOptions& options) {
-  CLI::App* bench = app.add_subcommand("bench", "Measure speed beside error, rasterizer by rasterizer");
-  bench->add_option("--workload", options.workloads, "Workload; may be repeated")->type_name("W")->take_all();
-  bench->add_option("--subject", options.subjects, "Rasterizer; may be repeated")->type_name("S")->take_all();
-  bench->add_flag("--quick", options.quick, "Fewer triangles and repetitions: under a minute in all");
-  bench->add_option("--json", options.json, "Write the rows as JSON")->type_name("FILE");
-  bench->add_option("--plot", options.plot, "Draw error over time as PNG, with gnuplot")->type_name("FILE");
+  CLI::App* bench = app.add_subcommand("bench", "Measure rasterizers: speed, and error beside it");
+  bench->add_option("--workload", options.workloads, "Set of triangles; may be repeated")->type_name("W")->take_all();
+  bench->add_option("--subject", options.subjects, "Rasterizer to measure beside the plain loop; may be repeated")
+      ->type_name("S")
+      ->take_all();
+  bench->add_flag("--quick", options.quick, "Fewer triangles and repetitions: less than a minute in all");
   bench->add_option("--seed", options.seed, "Seed of the workloads")->type_name("N")->capture_default_str();
-  options.make_subject = make_subject;
+  bench->add_option("--json", options.json, "Write the rows as JSON; - for standard output")->type_name("FILE");
+  bench->add_option("--plot", options.plot, "Draw error over time as PNG")->type_name("FILE");
 }
 
 int dispatch(int argc, char** argv) {
@@ -67,6 +68,7 @@ int dispatch(int argc, char** argv) {
   add_show(app, show_options);
 
   BenchOptions bench_options;
+  bench_options.make_subject = make_subject;
   add_bench(app, bench_options);
 
   try {
@@ -80,6 +82,7 @@ int dispatch(int argc, char** argv) {
   if (*list) return list_command(data, list_what);
   if (app.got_subcommand("bench")) return bench_command(bench_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
+  if (app.got_subcommand("bench")) return bench_command(bench_options);
   return run_command(data, run_options);
 }
 

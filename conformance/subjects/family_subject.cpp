@@ -27,6 +27,9 @@ class FamilySubject : public Subject {
     const Setting& setting = scene.setting;
     if (setting.samples() == 1 && setting.sample_locations[0] != SampleLocation{})
       return "a sample off the pixel's centre";
+    if (setting.cull != CullMode::none) return "culling";
+    if (scene.assembly) return "primitives to be assembled";
+    if (scene.clip) return "clip-space geometry";
     return Subject::refusal(scene);
   }
 
@@ -53,14 +56,9 @@ class FamilySubject : public Subject {
 
 }  // namespace
 
-std::string_view about_family_subject(std::string_view name) {
-  const rasterizer::FamilyMember* member = rasterizer::find_family_member(name);
-  return member == nullptr ? std::string_view() : member->about;
-}
-
-std::vector<std::string_view> family_subjects() {
-  std::vector<std::string_view> names;
-  for (const auto& member : rasterizer::family_members()) names.push_back(member.name);
+std::vector<FamilySubjectName> family_subjects() {
+  std::vector<FamilySubjectName> names;
+  for (const auto& member : rasterizer::family_members()) names.push_back({member.name, member.about});
   return names;
 }
 

@@ -10,11 +10,13 @@
 
 namespace edgecase::conformance {
 
-/// What `edgecase:NAME` names, in one line.
-std::string_view about_family_subject(std::string_view name);
+struct FamilySubjectName {
+  std::string_view name;
+  std::string_view about;  ///< one line for a person
+};
 
 /// The names that make_family_subject() knows, in the order of the family.
-std::vector<std::string_view> family_subjects();
+std::vector<FamilySubjectName> family_subjects();
 
 /// `edgecase:NAME` for the member of the family of that name; null for any other.
 ///

@@ -89,6 +89,9 @@ class InexactSubject : public Subject {
  public:
   explicit InexactSubject(const Entry& entry) : entry_(entry) {
     info_.name = fmt::format("inexact:{}", entry.info.name);
+    // Its snap is not to be found out by drawing, because nothing that it draws need be right: it is held against the
+    // rules that it claims, and refuses scenes that ask for others.
+    info_.follows_scene_rules = true;
     info_.max_coordinate = 32768.0 - 1.0 / 256;
   }
 
@@ -99,6 +102,9 @@ class InexactSubject : public Subject {
     const Setting& setting = scene.setting;
     if (setting.samples() == 1 && setting.sample_locations[0] != SampleLocation{})
       return "a sample off the pixel's centre";
+    if (setting.cull != CullMode::none) return "culling";
+    if (scene.assembly) return "primitives to be assembled";
+    if (scene.clip) return "clip-space geometry";
     return Subject::refusal(scene);
   }
 

@@ -43,13 +43,13 @@ std::vector<SubjectName> subject_names() {
       {"osmesa-llvmpipe", "Mesa's llvmpipe through OpenGL"},
       {"osmesa-softpipe", "Mesa's older rasterizer through OpenGL; breaks the rules, in ways that are known"},
       {"vulkan:DEVICE-OR-ICD", "a Vulkan driver, by part of its device's name or by its ICD file (.json)"}};
-  for (const std::string_view member : family_subjects()) {
-    if (member == "scalar") continue;  // listed above
-    names.push_back({fmt::format("{}{}", kEdgecaseFamily, member), std::string(about_family_subject(member))});
+  for (const FamilySubjectName& member : family_subjects()) {
+    if (member.name == "scalar") continue;  // is there already, for every number of subpixel bits
+    names.push_back({fmt::format("{}{}", kEdgecaseFamily, member.name), std::string(member.about)});
   }
   for (const InexactInfo& inexact : inexact_subjects()) {
     names.push_back(
-        {fmt::format("{}{}", kInexactFamily, inexact.name), fmt::format("inexact: {}", inexact.description)});
+        {fmt::format("{}{}", kInexactFamily, inexact.name), fmt::format("not exact: {}", inexact.description)});
   }
   for (const FaultInfo& fault : faults()) {
     names.push_back(
@@ -69,6 +69,8 @@ tl::expected<std::unique_ptr<Subject>, Error> make_subject(const std::string& na
     subject = make_inexact_subject(rest_of(kInexactFamily));
   } else if (name.starts_with(kFaultFamily)) {
     subject = make_fault_subject(rest_of(kFaultFamily));
+  } else if (name.starts_with(kInexactFamily)) {
+    subject = make_inexact_subject(rest_of(kInexactFamily));
   } else if (std::ranges::find(kDrivers, name) != std::end(kDrivers) ||
              (name.starts_with(kVulkanFamily) && name != kVulkanFamily)) {
     return make_driver_subject(name);

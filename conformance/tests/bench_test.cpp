@@ -117,7 +117,7 @@ TEST(BenchPlain, IsExactInNarrowAndInWideSteps) {
     for (auto& v : triangle) v = vertex();
     std::vector<std::uint8_t> observed(90 * 50), expected(90 * 50);
     cover_plain(triangle, target, observed.data());
-    rasterizer::cover_scalar<F>(triangle, target, [&](int y, int word, std::uint64_t bits) {
+    rasterizer::cover_scalar<F>(triangle, rasterizer::View<>{target}, [&](int y, int word, std::uint64_t bits) {
       for (int bit = 0; bit < 64; ++bit) {
         if (bits >> bit & 1) expected.at(static_cast<std::size_t>(y * 90 + word * 64 + bit)) = 1;
       }

@@ -58,7 +58,7 @@ class Family : public testing::TestWithParam<FamilyMember> {
     expected_.assign(target.mask_words(), 0);
     observed_.assign(target.mask_words(), 0);
     const Mask mask = *Mask::over(target, expected_);
-    cover_scalar<F>(triangle, target, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
+    cover_scalar<F>(triangle, View<>{target}, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
     GetParam().cover(triangle, *Mask::over(target, observed_));
     ASSERT_EQ(expected_, observed_) << describe(triangle) << " on " << target.width().value() << "x"
                                     << target.height().value();
@@ -179,7 +179,7 @@ TEST_P(Family, AListIsTheUnionAndStaysInTheMask) {
   std::vector<std::uint64_t> expected(target.mask_words(), 1), observed(target.mask_words(), 1);
   const Mask mask = *Mask::over(target, expected);
   for (const Fixed& triangle : triangles) {
-    cover_scalar<F>(triangle, target, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
+    cover_scalar<F>(triangle, View<>{target}, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
   }
   GetParam().cover_list(triangles, *Mask::over(target, observed));
   EXPECT_EQ(expected, observed);

@@ -37,9 +37,10 @@ constexpr FamilyMember kFamily[] = {
     member<[](auto&&... arguments) { family::cover_orient2d<F>(arguments...); }>(
         "orient2d", "orient2d for each edge and each pixel of the bounding box",
         "Giesen, Triangle rasterization in practice, 2013"),
-    member<[](auto&&... arguments) { cover_scalar<F>(arguments...); }>(
-        "scalar", "edge functions stepped incrementally: three adds and one or per pixel",
-        "Giesen, Optimizing the basic rasterizer, 2013"),
+    member<[](const FixedTriangle<F>& triangle, const Target& target, auto&& sink) {
+      cover_scalar<F>(triangle, View<>{target}, sink);
+    }>("scalar", "edge functions stepped incrementally: three adds and one or per pixel",
+       "Giesen, Optimizing the basic rasterizer, 2013"),
     member<[](auto&&... arguments) { family::cover_lanes4<F>(arguments...); }>(
         "lanes4", "four pixels of a row at a time", "Giesen, Optimizing the basic rasterizer, 2013"),
     member<[](auto&&... arguments) { family::cover_quads<F>(arguments...); }>(

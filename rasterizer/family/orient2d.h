@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 
 #include "rasterizer/family/setup.h"
 
@@ -18,11 +17,10 @@ namespace edgecase::rasterizer::family {
 
 template <class F, class Sink>
 constexpr void cover_orient2d(const FixedTriangle<F>& triangle, const Target& target, Sink&& sink) {
-  const auto box = pixel_box<F>(triangle, target);
-  const auto area = doubled_area<F>(triangle);
-  if (!box || area == constant<0>) return;
-  auto [v0, v1, v2] = triangle;
-  if (area < constant<0>) std::swap(v1, v2);
+  const auto box = pixel_box<F>(triangle, View<>{target});
+  const auto turned = turned_clockwise<F>(triangle);
+  if (!box || !turned) return;
+  const auto& [v0, v1, v2] = *turned;
 
   for (int y = box->top.value(); y < box->bottom.value(); ++y) {
     const auto row = *PixelIndex::checked(y);
@@ -30,10 +28,10 @@ constexpr void cover_orient2d(const FixedTriangle<F>& triangle, const Target& ta
       const int word = x / 64;
       std::uint64_t bits = 0;
       for (; x < std::min(word * 64 + 64, box->right.value()); ++x) {
-        const auto column = *PixelIndex::checked(x);
-        const bool inside = biased_edge_value<F>(v0, v1, pixel_centre<F>(column, row)) >= constant<0> &&
-                            biased_edge_value<F>(v1, v2, pixel_centre<F>(column, row)) >= constant<0> &&
-                            biased_edge_value<F>(v2, v0, pixel_centre<F>(column, row)) >= constant<0>;
+        const auto sample = sample_position<F>(*PixelIndex::checked(x), row, CentreSample::point<F>(0));
+        const bool inside = biased_edge_value<F>(v0, v1, sample) >= constant<0> &&
+                            biased_edge_value<F>(v1, v2, sample) >= constant<0> &&
+                            biased_edge_value<F>(v2, v0, sample) >= constant<0>;
         bits |= std::uint64_t{inside} << (x % 64);
       }
       if (bits != 0) sink(y, word, bits);

@@ -1,5 +1,7 @@
 // What the members of the family share: triangle setup in plain 64-bit integers, and how coverage reaches the sink.
 //
+// Views. One sample in each pixel's centre, no scissor: the family is about traversal.
+//
 // Sinks. Every member calls sink(y, word, bits) as cover_scalar does, with one freedom more: rows and words may come in
 // any order, and a word may come in several parts, which have no bit in common. A sink that ors them, as Mask::add
 // does, sees no difference.
@@ -63,15 +65,15 @@ struct Setup {
 template <class F>
 constexpr std::optional<Setup> set_up(const FixedTriangle<F>& triangle, const Target& target, int block) {
   static_assert(value_bits<F> <= 64);
-  const auto box = pixel_box<F>(triangle, target);
-  if (!box) return std::nullopt;
+  const auto box = pixel_box<F>(triangle, View<>{target});
+  const auto turned = turned_clockwise<F>(triangle);
+  if (!box || !turned) return std::nullopt;
   const auto left = *PixelIndex::checked(box->left.value() & -block);
   const auto top = *PixelIndex::checked(box->top.value() & -block);
-  const auto edges = make_edges<F>(triangle, left, top);
-  if (!edges) return std::nullopt;
+  const auto edges = make_edges<F>(*turned, sample_position<F>(left, top, CentreSample::point<F>(0)));
   Setup setup{left.value(), top.value(), box->right.value(), box->bottom.value(), {}};
   for (std::size_t e = 0; e < 3; ++e) {
-    const Edge<F>& edge = (*edges)[e];
+    const Edge<F>& edge = edges[e];
     setup.edges[e] = {edge.a.value(), edge.b.value(), edge.c.value()};
   }
   return setup;

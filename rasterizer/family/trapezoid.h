@@ -63,7 +63,7 @@ class ScanEdge {
 template <class F, class Sink>
 constexpr void cover_trapezoid(const FixedTriangle<F>& triangle, const Target& target, Sink&& sink) {
   static_assert(value_bits<F> < 64);
-  const auto box = pixel_box<F>(triangle, target);
+  const auto box = pixel_box<F>(triangle, View<>{target});
   if (!box) return;
   auto [high, middle, low] = triangle;
   if (high.y > middle.y) std::swap(high, middle);
@@ -82,8 +82,9 @@ constexpr void cover_trapezoid(const FixedTriangle<F>& triangle, const Target& t
   const int top = box->top.value(), split = first_row_from(middle.y), bottom = first_row_from(low.y);
   const int left = box->left.value(), width = box->right.value() - left;
 
+  const auto origin = sample_position<F>(box->left, box->top, CentreSample::point<F>(0));
   const auto edge = [&](const FixedVertex<F>& p, const FixedVertex<F>& q) {
-    const Edge<F> made = make_edge<F>(p, q, pixel_centre<F>(box->left, box->top));
+    const Edge<F> made = make_edge<F>(p, q, origin);
     return PlainEdge{made.a.value(), made.b.value(), made.c.value()};
   };
   const auto cover_rows = [&](const PlainEdge& left_edge, const PlainEdge& right_edge, int from, int to) {
