@@ -107,8 +107,8 @@ tl::expected<float, std::string> from_decimal(const Written& number, std::string
 }
 
 tl::expected<float, std::string> from_hexadecimal(const Written& number) {
-  // 24 bits that begin and end anywhere in a digit touch at most 7 digits, so what has more is not exact. To round it,
-  // its first 13 digits (52 bits) suffice with a sticky bit for the rest.
+  // The first 13 digits hold at least 49 significant bits, more than twice the 24 of a binary32 number. A sticky bit
+  // below them for the rest therefore neither makes such a number of another one nor changes which one is nearest.
   const std::string_view kept = std::string_view(number.digits).substr(0, 13);
   std::uint64_t significand = 0;
   std::from_chars(kept.data(), kept.data() + kept.size(), significand, 16);
@@ -119,7 +119,7 @@ tl::expected<float, std::string> from_hexadecimal(const Written& number) {
       std::ldexp(static_cast<double>(significand), static_cast<int>(std::clamp(exponent, -300L, 300L)));
   if (value > kMaxCaseCoordinate) return tl::unexpected(outside());
   const float rounded = static_cast<float>(value);
-  if (kept.size() > 7 || static_cast<double>(rounded) != value) return tl::unexpected(not_exact(number, rounded));
+  if (static_cast<double>(rounded) != value) return tl::unexpected(not_exact(number, rounded));
   return rounded;
 }
 

@@ -16,6 +16,7 @@ Append strip;
 Append refinement;
 Append uniform;
 Append ties;
+Append range;
 Append sliver;
 Append tiny;
 

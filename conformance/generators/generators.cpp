@@ -35,6 +35,8 @@ std::span<const Generator> generators() {
                 "triangles on the half-pixel lattice: edges and vertices on pixel centres",
                 {},
                 families::ties},
+      Generator{
+          "range", "range", "triangles whose vertices lie up to 8,000 px outside the target", {}, families::range},
       Generator{"sliver",
                 "sliver",
                 "needles up to a few subpixels wide, most of them passing close to pixel centres",

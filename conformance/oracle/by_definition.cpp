@@ -139,7 +139,9 @@ bool scissor_holds(const Setting& setting, int x, int y) {
 }  // namespace
 
 GridPoint snap(const Rules& rules, const Position& position) {
-  return {snap_coordinate(rules, position.x), snap_coordinate(rules, position.y)};
+  if (!rules.half_pixel_first) return {snap_coordinate(rules, position.x), snap_coordinate(rules, position.y)};
+  const std::int64_t half = (std::int64_t{1} << rules.subpixel_bits) / 2;
+  return {snap_coordinate(rules, position.x - 0.5f) + half, snap_coordinate(rules, position.y - 0.5f) + half};
 }
 
 void cover_by_definition(const Setting& setting, const Rules& rules, const Triangle& triangle, MutableMaskView mask) {

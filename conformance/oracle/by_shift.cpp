@@ -40,6 +40,11 @@ Rational exact(float value) {
 
 // The multiple of 2^-subpixel_bits that the rules move `value` to.
 Rational snapped(const Rules& rules, float value) {
+  if (rules.half_pixel_first) {
+    Rules plain = rules;
+    plain.half_pixel_first = false;
+    return snapped(plain, value - 0.5f) + Rational(1, 2);
+  }
   const Integer scale = Integer(1) << rules.subpixel_bits;
   const Rational scaled = exact(value) * scale;
   if (denominator(scaled) == 1) return exact(value);

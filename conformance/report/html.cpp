@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::array kVerdicts{Verdict::fail, Verdict::known, Verdict::pass, Verdict::skip};
 
+/// A browser lays out a table as a whole: many short ones spare it the rows that are out of view.
+constexpr std::size_t kRowsOfTable = 200;
+
 /// Tells the verdicts apart where colours do not.
 const char* glyph_of(Verdict verdict) {
   switch (verdict) {
@@ -220,13 +223,22 @@ class Page {
   }
 
   void results() {
-    add("<h2 id=\"results\">All results</h2>\n<div class=\"wide\"><table>\n<thead><tr><th scope=\"col\">subject</th>"
-        "<th scope=\"col\">case</th><th scope=\"col\">verdict</th><th scope=\"col\" class=\"number\">triangles</th>"
-        "<th scope=\"col\" class=\"number\">samples</th><th scope=\"col\" class=\"number\">missing</th>"
-        "<th scope=\"col\" class=\"number\">unexpected</th><th scope=\"col\" class=\"number\">doubled</th>"
-        "<th scope=\"col\" class=\"number\">seconds</th><th scope=\"col\">reason</th></tr></thead>\n<tbody>\n");
-    for (std::size_t i = 0; i < report_.results.size(); ++i) row(i);
-    add("</tbody>\n</table></div>\n");
+    add("<h2 id=\"results\">All results</h2>\n<div class=\"wide\">\n");
+    for (std::size_t i = 0; i < report_.results.size(); ++i) {
+      if (i % kRowsOfTable == 0) begin_table();
+      row(i);
+      if ((i + 1) % kRowsOfTable == 0 || i + 1 == report_.results.size()) add("</tbody></table></div>\n");
+    }
+    add("</div>\n");
+  }
+
+  void begin_table() {
+    add("<div class=\"rows\"><table><thead><tr>");
+    for (const char* name : {"subject", "case", "verdict"}) add("<th scope=\"col\">{}</th>", name);
+    for (const char* name : {"triangles", "samples", "missing", "unexpected", "doubled", "seconds"}) {
+      add("<th scope=\"col\" class=\"number\">{}</th>", name);
+    }
+    add("<th scope=\"col\">reason</th></tr></thead>\n<tbody>\n");
   }
 
   void row(std::size_t i) {

@@ -25,6 +25,7 @@ Json to_value(const std::optional<FirstWrong>& first) {
 Json to_value(const Result& result) {
   return {{"subject", result.subject},
           {"device", text_or_null(result.device)},
+          {"snap", text_or_null(result.snap)},
           {"case", result.testcase},
           {"category", text_or_null(result.category)},
           {"verdict", name_of(result.verdict)},

@@ -33,7 +33,11 @@ class Reference {
   std::uint64_t confirmed() const { return confirmed_; }
 
  private:
+  /// Fills snapped_ with the scene's vertices as its rules snap them; exact, a grid coordinate having at most 24 bits.
+  void snap_all(const Scene& scene);
+
   std::unique_ptr<Subject> fast_;
+  Scene snapped_;
   std::vector<std::uint64_t> scratch_;
   std::uint64_t confirmed_ = 0;
 };

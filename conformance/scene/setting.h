@@ -51,6 +51,10 @@ struct Rules {
   /// Fraction bits of a window coordinate, 0 to 16. D3D11 demands 8; Vulkan and OpenGL at least 4.
   int subpixel_bits = 8;
   SnapRounding rounding = SnapRounding::nearest_even;
+  /// Whether half a pixel is subtracted from the coordinate in binary32 before it is scaled and rounded, and added back
+  /// afterwards, as rasterizers do that put pixel centres on whole numbers. The subtraction itself may round: a coordinate
+  /// just past a tie then becomes the tie. D3D11's tolerance of 0.6 units allows that; it shows within 2^-24 px of a tie.
+  bool half_pixel_first = false;
   friend bool operator==(const Rules&, const Rules&) = default;
 };
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "conformance/subjects/family_subject.h"
+#include "rasterizer/fast/fast.h"
 #include "rasterizer/rasterizer.h"
 
 namespace edgecase::conformance {
@@ -39,6 +41,11 @@ std::optional<rasterizer::SamplePattern> sample_pattern(const Setting& setting) 
   return rasterizer::SamplePattern::make(locations);
 }
 
+/// One sample in the pixel's centre, on the whole target.
+bool is_plain(const Setting& setting) {
+  return setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{} && !setting.scissor;
+}
+
 template <class F, class View>
 Failure draw_into(const View& view, const Scene& scene, MaskBatch& masks) {
   rasterizer::FixedTriangle<F> snapped;
@@ -52,10 +59,10 @@ Failure draw_into(const View& view, const Scene& scene, MaskBatch& masks) {
 
 template <class F>
 Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
+  std::fill(masks.data().begin(), masks.data().end(), std::uint64_t{0});
   using rasterizer::SamplePattern, rasterizer::Scissor;
   const Setting& setting = scene.setting;
-  const bool centred = setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{};
-  if (centred && !setting.scissor) return draw_into<F>(rasterizer::View<>{target}, scene, masks);
+  if (is_plain(setting)) return draw_into<F>(rasterizer::View<>{target}, scene, masks);
   const Rect scissor = setting.scissor.value_or(Rect{0, 0, setting.target.width, setting.target.height});
   return draw_into<F>(
       rasterizer::View<SamplePattern, Scissor>{
@@ -63,15 +70,38 @@ Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch
       scene, masks);
 }
 
+/// The same in vectors. Vertices on a grid coarser than that of 16.8 lie on that one, too.
+template <class F>
+Failure draw_fast(const rasterizer::FastRasterizer& fast, const Scene& scene, const rasterizer::Target& target,
+                  MaskBatch& masks) {
+  if constexpr (F::kSubpixelBits > rasterizer::Format16_8::kSubpixelBits) {
+    return draw_all<F>(scene, target, masks);
+  } else {
+    constexpr int kFiner = rasterizer::Format16_8::kSubpixelBits - F::kSubpixelBits;
+    std::vector<rasterizer::FixedTriangle<rasterizer::Format16_8>> triangles(scene.triangles.size());
+    rasterizer::FixedTriangle<F> snapped;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+      if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
+      for (std::size_t v = 0; v < 3; ++v) {
+        triangles[i][v] = {snapped[v].x.template shifted_left<kFiner>(), snapped[v].y.template shifted_left<kFiner>()};
+      }
+    }
+    fast.cover_each(triangles, target, masks.data());
+    return std::nullopt;
+  }
+}
+
 struct FormatEntry {
   Failure (*check_range)(const Scene&);
   Failure (*draw_all)(const Scene&, const rasterizer::Target&, MaskBatch&);
+  Failure (*draw_fast)(const rasterizer::FastRasterizer&, const Scene&, const rasterizer::Target&, MaskBatch&);
 };
 
 template <std::size_t... Bits>
 constexpr std::array<FormatEntry, sizeof...(Bits)> make_formats(std::index_sequence<Bits...>) {
   return {FormatEntry{&check_range<rasterizer::Format<kIntegerBits, static_cast<int>(Bits)>>,
-                      &draw_all<rasterizer::Format<kIntegerBits, static_cast<int>(Bits)>>}...};
+                      &draw_all<rasterizer::Format<kIntegerBits, static_cast<int>(Bits)>>,
+                      &draw_fast<rasterizer::Format<kIntegerBits, static_cast<int>(Bits)>>}...};
 }
 
 /// Indexed by the subpixel bits.
@@ -79,7 +109,7 @@ constexpr auto kFormatTable = make_formats(std::make_index_sequence<kFormats>())
 
 class EdgecaseSubject : public Subject {
  public:
-  explicit EdgecaseSubject(std::string name) {
+  EdgecaseSubject(std::string name, std::optional<rasterizer::FastRasterizer> fast) : fast_(fast) {
     info_.name = std::move(name);
     info_.sample_counts.resize(rasterizer::kMaxSamples);
     std::iota(info_.sample_counts.begin(), info_.sample_counts.end(), 1);
@@ -101,7 +131,9 @@ class EdgecaseSubject : public Subject {
       return fmt::format("{} samples a pixel", setting.samples());
     }
     if (!sample_pattern(setting)) return "a sample off the sixteenths of a pixel";
-    if (scene.rules.rounding != SnapRounding::nearest_even) return "snaps to nearest even only";
+    if (scene.rules.rounding != SnapRounding::nearest_even || scene.rules.half_pixel_first) {
+      return "snaps to nearest even only";
+    }
     const int bits = scene.rules.subpixel_bits;
     if (bits < 0 || static_cast<std::size_t>(bits) >= kFormats) return fmt::format("{} subpixel bits", bits);
     if (const auto error = kFormatTable[static_cast<std::size_t>(bits)].check_range(scene)) {
@@ -112,10 +144,11 @@ class EdgecaseSubject : public Subject {
 
   tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override {
     masks.reset(MaskLayout(scene.setting), scene.triangles.size());
-    std::fill(masks.data().begin(), masks.data().end(), std::uint64_t{0});
     const auto target = rasterizer::Target::make(scene.setting.target.width, scene.setting.target.height);
     const auto bits = static_cast<std::size_t>(scene.rules.subpixel_bits);
-    if (const auto error = kFormatTable[bits].draw_all(scene, *target, masks)) {
+    const FormatEntry& format = kFormatTable[bits];
+    if (const auto error = fast_ && is_plain(scene.setting) ? format.draw_fast(*fast_, scene, *target, masks)
+                                                            : format.draw_all(scene, *target, masks)) {
       return tl::unexpected(Error{ErrorKind::subject, info_.name + ": " + rasterizer::describe(*error)});
     }
     return {};
@@ -123,14 +156,21 @@ class EdgecaseSubject : public Subject {
 
  private:
   SubjectInfo info_;
+  std::optional<rasterizer::FastRasterizer> fast_;
 };
 
 }  // namespace
 
 std::unique_ptr<Subject> make_edgecase_subject(const std::string& variant) {
-  if (variant.empty()) return std::make_unique<EdgecaseSubject>("edgecase");
-  if (variant == "scalar") return std::make_unique<EdgecaseSubject>("edgecase:scalar");
-  return nullptr;
+  using rasterizer::FastRasterizer;
+  if (variant.empty()) return std::make_unique<EdgecaseSubject>("edgecase", FastRasterizer());
+  if (variant == "scalar") return std::make_unique<EdgecaseSubject>("edgecase:scalar", std::nullopt);
+  for (const rasterizer::Isa isa : rasterizer::available_isas()) {
+    if (variant == rasterizer::name_of(isa)) {
+      return std::make_unique<EdgecaseSubject>("edgecase:" + variant, FastRasterizer::make(isa));
+    }
+  }
+  return make_family_subject(variant);
 }
 
 }  // namespace edgecase::conformance

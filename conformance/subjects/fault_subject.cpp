@@ -243,7 +243,9 @@ class FaultSubject : public Subject {
   const SubjectInfo& info() const override { return info_; }
 
   std::optional<std::string> refusal(const Scene& scene) const override {
-    if (scene.rules.rounding != SnapRounding::nearest_even) return "snaps to nearest even only";
+    if (scene.rules.rounding != SnapRounding::nearest_even || scene.rules.half_pixel_first) {
+      return "snaps to nearest even only";
+    }
     return Subject::refusal(scene);
   }
 

@@ -8,7 +8,9 @@
 #include "conformance/scene/nearest_name.h"
 #include "conformance/subjects/driver_subject.h"
 #include "conformance/subjects/edgecase_subject.h"
+#include "conformance/subjects/family_subject.h"
 #include "conformance/subjects/fault_subject.h"
+#include "conformance/subjects/inexact_subject.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -16,6 +18,7 @@ namespace {
 constexpr std::string_view kEdgecase = "edgecase";
 constexpr std::string_view kEdgecaseFamily = "edgecase:";
 constexpr std::string_view kFaultFamily = "fault:";
+constexpr std::string_view kInexactFamily = "inexact:";
 constexpr std::string_view kVulkanFamily = "vulkan:";
 constexpr std::string_view kDrivers[] = {"lavapipe", "lavapipe:bgra8", "osmesa-llvmpipe", "osmesa-softpipe",
                                          "swiftshader"};
@@ -43,6 +46,14 @@ std::vector<SubjectName> subject_names() {
       {"osmesa-softpipe", "Mesa's older rasterizer through OpenGL; breaks the rules, in ways that are known"},
       {"swiftshader", "Google's software rasterizer through Vulkan; optional, from Debian's package chromium"},
       {"vulkan:DEVICE-OR-ICD", "a Vulkan driver, by part of its device's name or by its ICD file (.json)"}};
+  for (const FamilySubjectName& member : family_subjects()) {
+    if (member.name == "scalar") continue;  // is there already, for every number of subpixel bits
+    names.push_back({fmt::format("{}{}", kEdgecaseFamily, member.name), std::string(member.about)});
+  }
+  for (const InexactInfo& inexact : inexact_subjects()) {
+    names.push_back(
+        {fmt::format("{}{}", kInexactFamily, inexact.name), fmt::format("not exact: {}", inexact.description)});
+  }
   for (const FaultInfo& fault : faults()) {
     names.push_back(
         {fmt::format("{}{}", kFaultFamily, fault.name), fmt::format("wrong on purpose: {}", fault.description)});
@@ -57,8 +68,12 @@ tl::expected<std::unique_ptr<Subject>, Error> make_subject(const std::string& na
     subject = make_edgecase_subject("");
   } else if (name.starts_with(kEdgecaseFamily) && name != kEdgecaseFamily) {
     subject = make_edgecase_subject(rest_of(kEdgecaseFamily));
+  } else if (name.starts_with(kInexactFamily)) {
+    subject = make_inexact_subject(rest_of(kInexactFamily));
   } else if (name.starts_with(kFaultFamily)) {
     subject = make_fault_subject(rest_of(kFaultFamily));
+  } else if (name.starts_with(kInexactFamily)) {
+    subject = make_inexact_subject(rest_of(kInexactFamily));
   } else if (std::ranges::find(kDrivers, name) != std::end(kDrivers) ||
              (name.starts_with(kVulkanFamily) && name != kVulkanFamily)) {
     return make_driver_subject(name);

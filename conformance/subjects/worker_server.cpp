@@ -75,7 +75,9 @@ DrawReply draw(Driver& driver, SharedMemory& memory, const DrawRequest& request)
     return reply;
   }
   const auto locations = standard_sample_locations(request.samples);
-  Setting setting{{request.width, request.height}, {locations.begin(), locations.end()}};
+  Setting setting;
+  setting.target = {request.width, request.height};
+  setting.sample_locations.assign(locations.begin(), locations.end());
   if (request.has_scissor) setting.scissor = request.scissor;
   setting.cull = request.cull;
   setting.front_face = request.front_face;

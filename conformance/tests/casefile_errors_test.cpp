@@ -84,6 +84,12 @@ TEST(CaseFileErrors, Sentences) {
   EXPECT_EQ(replaced("\"s\"", "null"), "f.json:3: source: null is not a string");
 }
 
+TEST(CaseFileErrors, LongValuesAreCutBetweenCharacters) {
+  const std::string long_value = std::string(59, 'y') + "\u00e9\u00e9";
+  EXPECT_EQ(replaced("\"source\"", "\"" + long_value + "\""),
+            "f.json:3: " + std::string(59, 'y') + "...: unknown field");
+}
+
 TEST(CaseFileErrors, Target) {
   EXPECT_EQ(replaced("[4, 2]", "4"), "f.json:4: target: 4 is not [width, height]");
   EXPECT_EQ(replaced("[4, 2]", "[4, 2, 1]"), "f.json:4: target: an array of 3 is not [width, height]");

@@ -21,6 +21,7 @@ Scene scene_of(std::vector<Triangle> triangles) {
 TEST(EdgecaseSubject, EveryVariantHasItsName) {
   EXPECT_EQ(make_edgecase_subject("")->info().name, "edgecase");
   EXPECT_EQ(make_edgecase_subject("scalar")->info().name, "edgecase:scalar");
+  EXPECT_EQ(make_edgecase_subject("portable")->info().name, "edgecase:portable");
   EXPECT_EQ(make_edgecase_subject("vector"), nullptr);
 }
 

@@ -57,10 +57,12 @@ std::size_t occurrences(const std::string& text, std::string_view part) {
 }
 
 TEST(JunitReport, HasASuitePerSubject) {
-  const ptree suites = parse_xml(to_junit(one_of_each())).get_child("testsuites");
-  EXPECT_EQ(suites.get<int>("<xmlattr>.tests"), 4);
+  Report report = one_of_each();
+  report.results.push_back(skipped("softpipe", "cases/c.json", "samples"));
+  const ptree suites = parse_xml(to_junit(report)).get_child("testsuites");
+  EXPECT_EQ(suites.get<int>("<xmlattr>.tests"), 5);
   EXPECT_EQ(suites.get<int>("<xmlattr>.failures"), 1);
-  EXPECT_EQ(suites.get<int>("<xmlattr>.skipped"), 1);
+  EXPECT_EQ(suites.get<int>("<xmlattr>.skipped"), 2);
   EXPECT_EQ(suites.get<double>("<xmlattr>.time"), 1.5);
   ASSERT_EQ(suites.count("testsuite"), 2u);
   const ptree& lavapipe = suites.get_child("testsuite");
@@ -162,6 +164,19 @@ TEST(HtmlReport, LoadsNothingFromElsewhere) {
   for (const char* loads : {"http:", "https:", "url(", "@import", "fetch(", "<link"}) {
     EXPECT_THAT(page, Not(HasSubstr(loads)));
   }
+}
+
+TEST(HtmlReport, SplitsManyResultsIntoTables) {
+  Report report;
+  report.results.assign(400, passed("lavapipe", "case", "edges"));
+  EXPECT_EQ(occurrences(to_html(report), "<div class=\"rows\">"), 2u);
+  report.results.push_back(passed("lavapipe", "case", "edges"));
+  const std::string page = to_html(report);
+  EXPECT_EQ(occurrences(page, "<div class=\"rows\">"), 3u);
+  EXPECT_EQ(occurrences(page, "<tr data-subject="), 401u);
+  EXPECT_EQ(occurrences(page, "<div"), occurrences(page, "</div>"));
+  EXPECT_EQ(occurrences(page, "<table"), occurrences(page, "</table>"));
+  EXPECT_EQ(occurrences(page, "<tbody"), occurrences(page, "</tbody>"));
 }
 
 TEST(HtmlReport, OfNothing) { EXPECT_THAT(to_html(Report{}), HasSubstr("Nothing was compared.")); }

@@ -42,6 +42,9 @@ TEST(Escape, KnowsWhatUtf8IsWellFormed) {
   EXPECT_EQ(visible("\xe0\x9f\xbf"), bad + bad + bad);            // overlong
   EXPECT_EQ(visible("\xf0\x8f\xbf\xbf"), bad + bad + bad + bad);  // overlong
   EXPECT_EQ(visible("\xf4\x90\x80\x80"), bad + bad + bad + bad);  // above U+10FFFF
+  EXPECT_EQ(visible("\xf9\x80\x80\x80"), bad + bad + bad + bad);  // no lead byte
+  EXPECT_EQ(visible("\xe2\x28"), bad + "(");                      // cut off
+  EXPECT_EQ(visible("\xc3\xc3\xa9"), bad + "\xc3\xa9");           // a lead byte where a continuation should be
   EXPECT_EQ(visible("\xe2\x82"), bad + bad);                      // cut off
   EXPECT_EQ(visible("\xef\xbf\xbf"), bad);                        // U+FFFF, which XML forbids
   EXPECT_EQ(columns("a\xc3\xa9\xe2\x82\xac"), 3u);
@@ -97,7 +100,7 @@ TEST(JsonReport, HasEveryKeyInTheDesignsOrder) {
   EXPECT_THAT(keys(root), ElementsAre("edgecase", "seed", "results", "totals"));
   ASSERT_EQ(root["results"].size(), 4u);
   for (const auto& result : root["results"]) {
-    EXPECT_THAT(keys(result), ElementsAre("subject", "device", "case", "category", "verdict", "triangles",
+    EXPECT_THAT(keys(result), ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles",
                                           "samples_compared", "missing", "unexpected", "doubled", "known_triangles",
                                           "first", "reason", "seconds", "subject_seconds"));
   }
@@ -112,7 +115,7 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["edgecase"], "0.1.0");
   EXPECT_EQ(root["seed"].get<std::uint64_t>(), UINT64_MAX);
   EXPECT_EQ(root["results"][0], json::parse(R"j({
-      "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "case": "cases/a.json", "category": "edges",
+      "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "snap": null, "case": "cases/a.json", "category": "edges",
       "verdict": "pass", "triangles": 4, "samples_compared": 1024, "missing": 0, "unexpected": 0, "doubled": 0,
       "known_triangles": 0, "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
 })j"));
@@ -137,6 +140,7 @@ TEST(JsonReport, TakesAnyBytes) {
   const json root = json::parse(to_json(report));
   EXPECT_THAT(root["results"][0]["case"].get<std::string>(),
               HasSubstr("\x1b[31m"));  // JSON carries controls as they are
+  EXPECT_THAT(root["results"][0]["case"].get<std::string>(), HasSubstr(" \xef\xbf\xbd "));  // the stray byte
   report.results.clear();
   EXPECT_EQ(json::parse(to_json(report))["results"], json::array());
 }

@@ -1,0 +1,218 @@
+#include "conformance/bench/measure.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "conformance/oracle/oracle.h"
+#include "rasterizer/centre_sample.h"
+#include "rasterizer/rasterizer.h"
+
+namespace edgecase::conformance {
+namespace {
+
+/// One in this many triangles of the scalar rasterizer's answers is given to the oracle.
+constexpr std::size_t kJudgedShare = 64;
+
+/// Keeps what Google Benchmark measured instead of printing it.
+class Collector : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      const auto index = static_cast<std::size_t>(std::stoul(run.run_name.function_name));
+      if (run.error_occurred) {
+        error = run.error_message;
+      } else {
+        real_seconds[index].push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
+        cpu_seconds[index].push_back(run.cpu_accumulated_time / static_cast<double>(run.iterations));
+      }
+    }
+  }
+
+  std::map<std::size_t, std::vector<double>> real_seconds, cpu_seconds;
+  std::string error;
+};
+
+void initialize_google_benchmark() {
+  static const bool once = [] {
+    std::array<std::string, 2> arguments{"edgecase", "--benchmark_enable_random_interleaving=true"};
+    std::array<char*, 3> pointers{arguments[0].data(), arguments[1].data(), nullptr};
+    int count = 2;
+    benchmark::Initialize(&count, pointers.data());
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+/// Seconds a draw, a value per repetition, by contender.
+tl::expected<std::vector<std::vector<double>>, Error> time_draws(
+    const std::vector<std::unique_ptr<Contender>>& contenders, const Effort& effort) {
+  initialize_google_benchmark();
+  benchmark::ClearRegisteredBenchmarks();
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    const auto run = [contender = contenders[i].get()](benchmark::State& state) {
+      for (auto _ : state) {
+        state.PauseTiming();
+        contender->clear();
+        state.ResumeTiming();
+        if (const auto drawn = contender->draw(); !drawn) {
+          state.SkipWithError(drawn.error().message.c_str());
+          break;
+        }
+        benchmark::ClobberMemory();
+      }
+    };
+    auto* const registered = benchmark::RegisterBenchmark(std::to_string(i).c_str(), run);
+    registered->Repetitions(static_cast<int>(effort.repetitions))->MinTime(effort.seconds_per_repetition);
+    if (!contenders[i]->in_this_thread()) registered->UseRealTime();
+  }
+  Collector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector, "all");
+  benchmark::ClearRegisteredBenchmarks();
+  if (!collector.error.empty()) return tl::unexpected(Error{ErrorKind::subject, collector.error});
+  std::vector<std::vector<double>> seconds;
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    seconds.push_back(contenders[i]->in_this_thread() ? collector.cpu_seconds[i] : collector.real_seconds[i]);
+  }
+  return seconds;
+}
+
+/// The rows of the target that hold every sample in the triangle's bounding box, and one more on either side.
+std::pair<std::size_t, std::size_t> rows_of(const Triangle& triangle, int height) {
+  const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+  const auto row = [&](float y) { return static_cast<std::size_t>(std::clamp(y, 0.0f, static_cast<float>(height))); };
+  return {row(std::floor(low) - 1), row(std::floor(high) + 2)};
+}
+
+/// What the scalar rasterizer covers.
+class Expectation {
+ public:
+  explicit Expectation(const Scene& scene)
+      : scene_(scene),
+        target_(*rasterizer::Target::make(scene.setting.target.width, scene.setting.target.height)),
+        words_(target_.mask_words()) {}
+
+  std::vector<std::uint64_t>& words() { return words_; }
+
+  /// Adds triangle i of the scene.
+  tl::expected<void, Error> add(std::size_t i) {
+    const auto& [v0, v1, v2] = scene_.triangles[i];
+    rasterizer::FixedTriangle<rasterizer::Format16_8> snapped;
+    const rasterizer::Triangle triangle{{{v0.x, v0.y}, {v1.x, v1.y}, {v2.x, v2.y}}};
+    if (const auto error = rasterizer::snap<rasterizer::Format16_8>(triangle, snapped, i)) {
+      return tl::unexpected(Error{ErrorKind::bad_input, rasterizer::describe(*error)});
+    }
+    const auto mask = *rasterizer::Mask::over(target_, words_);
+    rasterizer::cover_scalar<rasterizer::Format16_8>(
+        snapped, rasterizer::View<>{target_}, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
+    return {};
+  }
+
+ private:
+  const Scene& scene_;
+  rasterizer::Target target_;
+  std::vector<std::uint64_t> words_;
+};
+
+/// Holds the scalar rasterizer against the oracle on the stated share of the triangles.
+tl::expected<void, Error> judge_expectation(const Scene& scene) {
+  Expectation expectation(scene);
+  std::vector<std::uint64_t> oracle_mask(expectation.words().size());
+  for (std::size_t i = 0; i < scene.triangles.size(); i += kJudgedShare) {
+    std::ranges::fill(expectation.words(), 0);
+    if (auto added = expectation.add(i); !added) return added;
+    oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], oracle_mask);
+    if (expectation.words() != oracle_mask) {
+      return tl::unexpected(
+          Error{ErrorKind::subject, fmt::format("our rasterizer and the oracle differ on triangle {}", i)});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Statistics statistics(std::vector<double> values) {
+  std::ranges::sort(values);
+  // Between the values, where the share falls between two of them.
+  const auto quantile = [&](double share) {
+    const double position = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(position);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (values[above] - values[below]) * (position - static_cast<double>(below));
+  };
+  const double median = quantile(0.5);
+  return {median, (quantile(0.75) - quantile(0.25)) / median};
+}
+
+tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& scene) {
+  const MaskLayout layout(scene.setting);
+  // Between triangles only the rows that the triangle can reach are looked at and cleared; what a contender put
+  // elsewhere stays, and is counted at the end.
+  Expectation expectation(scene);
+  std::vector<std::uint64_t>& expected = expectation.words();
+  std::vector<std::uint64_t> observed(layout.words());
+  ErrorCount count;
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    contender.cover(i, observed);
+    if (auto added = expectation.add(i); !added) return tl::unexpected(added.error());
+    const auto [first, last] = rows_of(scene.triangles[i], layout.target.height);
+    for (std::size_t k = first * layout.row_words(); k < last * layout.row_words(); ++k) {
+      count.wrong += static_cast<std::uint64_t>(std::popcount(observed[k] ^ expected[k]));
+      count.covered += static_cast<std::uint64_t>(std::popcount(expected[k]));
+      observed[k] = expected[k] = 0;
+    }
+  }
+  for (const std::uint64_t word : observed) count.wrong += static_cast<std::uint64_t>(std::popcount(word));
+  return count;
+}
+
+tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
+                                                   const std::vector<std::unique_ptr<Contender>>& contenders,
+                                                   const Effort& effort, std::uint64_t seed) {
+  std::vector<std::size_t> triangles;
+  std::vector<ErrorCount> errors;
+  const std::size_t wanted = std::max<std::size_t>(workload.triangles / effort.divisor, 4);
+  if (auto judged = judge_expectation(make_workload(workload, wanted, seed)); !judged) {
+    return tl::unexpected(judged.error());
+  }
+  for (const auto& contender : contenders) {
+    const Scene scene = make_workload(workload, std::min(wanted, contender->most_triangles()), seed);
+    triangles.push_back(scene.triangles.size());
+    if (auto prepared = contender->prepare(scene); !prepared) return tl::unexpected(prepared.error());
+    contender->clear();
+    if (auto drawn = contender->draw(); !drawn) return tl::unexpected(drawn.error());
+    const auto counted = count_errors(*contender, scene);
+    if (!counted) return tl::unexpected(counted.error());
+    errors.push_back(*counted);
+  }
+  const auto seconds = time_draws(contenders, effort);
+  if (!seconds) return tl::unexpected(seconds.error());
+
+  std::vector<BenchRow> rows;
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    const Statistics draw = statistics((*seconds)[i]);
+    const double count = static_cast<double>(triangles[i]), covered = static_cast<double>(errors[i].covered);
+    BenchRow& row = rows.emplace_back();
+    row.rasterizer = contenders[i]->name();
+    row.isa = contenders[i]->isa();
+    row.workload = workload.name;
+    row.triangles = triangles[i];
+    row.ns_per_triangle = draw.median / count * 1e9;
+    row.spread = draw.spread;
+    row.ratio_to_plain = rows.front().ns_per_triangle / row.ns_per_triangle;
+    row.wrong_per_million = covered == 0 ? 0 : static_cast<double>(errors[i].wrong) / covered * 1e6;
+    row.covered_px_per_second = covered / draw.median;
+  }
+  return rows;
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,67 @@
+// Measuring one workload: how long each contender takes, and how much of what it covers is wrong.
+//
+// Time. Google Benchmark runs every contender's draw() several times over, the repetitions of all contenders shuffled,
+// so that a slow phase of the machine meets all of them; a ratio counts only within one such run. Masks are cleared
+// outside the time. Rasterizers that work in the calling thread are given that thread's time, which leaves out what
+// other processes took of the processor; subjects, which may have threads of their own, the time that passed.
+//
+// Error. Every triangle is drawn on its own and held against the scalar rasterizer, so that a missing and an
+// unexpected pixel never cancel; one triangle in 64 of those answers is held against the oracle by definition.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "conformance/bench/contender.h"
+#include "conformance/bench/workloads.h"
+#include "conformance/scene/error.h"
+
+namespace edgecase::conformance {
+
+/// One contender on one workload.
+struct BenchRow {
+  std::string rasterizer;
+  std::string isa;
+  std::string workload;
+  std::size_t triangles = 0;
+  double ns_per_triangle = 0;    ///< the median of the repetitions
+  double spread = 0;             ///< the difference of their upper and lower quartile over the median
+  double ratio_to_plain = 0;     ///< how many times as fast as the plain loop; above 1 is faster
+  double wrong_per_million = 0;  ///< missing and unexpected pixels, over the pixels that are to be covered
+  double covered_px_per_second = 0;
+};
+
+struct Effort {
+  std::size_t repetitions;
+  double seconds_per_repetition;  ///< at least
+  /// Divides the number of the workload's triangles.
+  std::size_t divisor;
+};
+inline constexpr Effort kQuick{5, 0.01, 50};
+inline constexpr Effort kThorough{9, 0.05, 1};
+
+/// A row per contender, in their order. The first of them must be the plain loop.
+tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
+                                                   const std::vector<std::unique_ptr<Contender>>& contenders,
+                                                   const Effort& effort, std::uint64_t seed);
+
+/// Of an odd or even number of values, at least one: the median, and the quartiles' difference over it.
+struct Statistics {
+  double median;
+  double spread;
+};
+Statistics statistics(std::vector<double> values);
+
+/// Pixels that `contender`, prepared for `scene` and drawn, covers wrongly, each triangle on its own, and pixels that
+/// are to be covered.
+struct ErrorCount {
+  std::uint64_t wrong = 0;
+  std::uint64_t covered = 0;
+};
+tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& scene);
+
+}  // namespace edgecase::conformance

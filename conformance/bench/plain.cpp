@@ -1,0 +1,96 @@
+#include "conformance/bench/plain.h"
+
+#include <cstdlib>
+#include <limits>
+
+#include "rasterizer/centre_sample.h"
+
+namespace edgecase::conformance {
+namespace {
+
+using Format = rasterizer::Format16_8;
+
+template <class Integer>
+struct Steps {
+  Integer a[3], b[3], c[3];
+};
+
+struct Box {
+  int width;
+  int height;
+  std::ptrdiff_t stride;
+};
+
+template <class Integer>
+inline __attribute__((always_inline)) void step(const Steps<Integer>& edges, const Box& box, std::uint8_t* row) {
+  // Copies: a byte that is stored could be one of the caller's numbers, as far as the compiler knows.
+  const auto [a, b, c] = edges;
+  const auto [width, height, stride] = box;
+  Integer row0 = c[0], row1 = c[1], row2 = c[2];
+  for (int y = 0; y < height; ++y) {
+    Integer value0 = row0, value1 = row1, value2 = row2;
+    for (int x = 0; x < width; ++x) {
+      row[x] = static_cast<std::uint8_t>(row[x] | ((value0 | value1 | value2) >= 0 ? 1 : 0));
+      value0 += a[0], value1 += a[1], value2 += a[2];
+    }
+    row0 += b[0], row1 += b[1], row2 += b[2];
+    row += stride;
+  }
+}
+
+#if defined(__x86_64__)
+#define EDGECASE_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#else
+#define EDGECASE_CLONES
+#endif
+
+EDGECASE_CLONES void step32(const Steps<std::int32_t>& edges, const Box& box, std::uint8_t* row) {
+  step(edges, box, row);
+}
+EDGECASE_CLONES void step64(const Steps<std::int64_t>& edges, const Box& box, std::uint8_t* row) {
+  step(edges, box, row);
+}
+
+}  // namespace
+
+void cover_plain(const rasterizer::FixedTriangle<Format>& triangle, const rasterizer::Target& target,
+                 std::uint8_t* pixels) {
+  const auto box = rasterizer::pixel_box<Format>(triangle, rasterizer::View<>{target});
+  const auto turned = rasterizer::turned_clockwise<Format>(triangle);
+  if (!box || !turned) return;
+  const auto origin =
+      rasterizer::sample_position<Format>(box->left, box->top, rasterizer::CentreSample::point<Format>(0));
+  const auto edges = rasterizer::make_edges<Format>(*turned, origin);
+  const std::ptrdiff_t stride = target.width().value();
+  const Box size{box->right.value() - box->left.value(), box->bottom.value() - box->top.value(), stride};
+  Steps<std::int64_t> wide;
+  std::int64_t largest = 0;
+  for (std::size_t e = 0; e < 3; ++e) {
+    wide.a[e] = edges[e].a.value(), wide.b[e] = edges[e].b.value(), wide.c[e] = edges[e].c.value();
+    // One step beyond the box is added and never looked at; it must fit, too.
+    largest =
+        std::max(largest, std::abs(wide.c[e]) + std::abs(wide.a[e]) * size.width + std::abs(wide.b[e]) * size.height);
+  }
+  std::uint8_t* const first = pixels + box->top.value() * stride + box->left.value();
+  if (largest > std::numeric_limits<std::int32_t>::max()) return step64(wide, size, first);
+  Steps<std::int32_t> narrow;
+  for (std::size_t e = 0; e < 3; ++e) {
+    narrow.a[e] = static_cast<std::int32_t>(wide.a[e]);
+    narrow.b[e] = static_cast<std::int32_t>(wide.b[e]);
+    narrow.c[e] = static_cast<std::int32_t>(wide.c[e]);
+  }
+  step32(narrow, size, first);
+}
+
+std::string plain_isa() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) return "avx512";
+  if (__builtin_cpu_supports("avx2")) return "avx2";
+  return "sse2";
+#else
+  return "portable";
+#endif
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,19 @@
+// The plot of error over time: a panel per workload, both axes logarithmic, drawn by gnuplot.
+#pragma once
+
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "conformance/bench/measure.h"
+#include "conformance/scene/error.h"
+
+namespace edgecase::conformance {
+
+/// Writes a PNG to `path`. An error if gnuplot is not installed (ErrorKind::absent) or cannot write there.
+tl::expected<void, Error> plot_bench(std::span<const BenchRow> rows, const std::string& path);
+
+/// The gnuplot program that does it.
+std::string plot_program(std::span<const BenchRow> rows, const std::string& path);
+
+}  // namespace edgecase::conformance

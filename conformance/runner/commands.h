@@ -1,0 +1,52 @@
+// The commands of the command line. Each prints, and returns the program's exit status.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "conformance/scene/error.h"
+
+namespace edgecase::conformance {
+
+enum ExitStatus : int {
+  kAsExpected = 0,
+  kMismatch = 1,  ///< or a known deviation that is no longer there
+  kBadInput = 2,
+  kAbsent = 3,  ///< a named subject is not there
+};
+
+/// Where this build finds its own data.
+struct DataFiles {
+  std::filesystem::path cases;
+  std::filesystem::path known_deviations;
+};
+
+struct RunOptions {
+  std::vector<std::string> cases;
+  std::vector<std::string> subjects;
+  std::vector<std::string> generators;
+  std::uint64_t count = 100'000;
+  std::uint64_t seed = 1;
+  std::string json;
+  std::string junit;
+  std::string report;
+  int jobs = 1;
+};
+
+struct ShowOptions {
+  std::string case_name;
+  std::string subject;
+  std::string png;
+};
+
+/// `what` is "cases", "subjects", "generators", or empty for all of them.
+int list_command(const DataFiles& data, const std::string& what);
+int run_command(const DataFiles& data, const RunOptions& options);
+int show_command(const DataFiles& data, const ShowOptions& options);
+
+/// Prints `error` to standard error and returns the exit status of its kind.
+int fail(const Error& error);
+
+}  // namespace edgecase::conformance

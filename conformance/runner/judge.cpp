@@ -1,0 +1,141 @@
+#include "conformance/runner/judge.h"
+
+#include <algorithm>
+#include <ranges>
+#include <span>
+
+#include "conformance/oracle/oracle.h"
+
+namespace edgecase::conformance {
+namespace {
+
+constexpr std::size_t kFindingsOfAKind = 3;
+
+std::span<const std::uint64_t> words_of(const MaskBatch& masks, std::size_t first, std::size_t count) {
+  const std::size_t words = masks[0].size();
+  return masks.data().subspan(first * words, count * words);
+}
+
+void copy_masks(const MaskLayout& layout, const MaskBatch& from, std::size_t first, std::size_t count, MaskBatch& to) {
+  to.reset(layout, count);
+  std::ranges::copy(words_of(from, first, count), to.data().begin());
+}
+
+Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView expected, MaskView observed,
+                       std::size_t triangle) {
+  Comparison comparison;
+  const std::span<const std::uint64_t> may =
+      batch.may.empty() ? std::span<const std::uint64_t>{}
+                        : std::span(batch.may).subspan(triangle * expected.size(), expected.size());
+  compare_masks(layout, expected, may, observed, triangle, comparison);
+  return comparison;
+}
+
+}  // namespace
+
+tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
+  if (auto drawn = subject_.draw(batch.scene, observed_); !drawn) return drawn;
+  if (auto known = reference_.expect(batch.scene, first_triangle, expected_); !known) return known;
+
+  Comparison comparison;
+  compare_masks(MaskLayout(batch.scene.setting), expected_.data(), batch.may, observed_.data(), first_triangle,
+                comparison);
+  outcome.triangles.add(comparison);
+  if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
+    if (auto judged = judge_triangles(batch, outcome); !judged) return judged;
+  }
+  judge_meshes(batch, first_triangle, outcome);
+  return {};
+}
+
+// Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and every
+// wrong one goes to both oracles before anybody is blamed.
+tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& outcome) {
+  const MaskLayout layout(batch.scene.setting);
+  for (std::size_t i = 0; i < batch.scene.triangles.size(); ++i) {
+    const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
+    const bool wrong = !comparison.all_right();
+    if (wrong) {
+      if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
+    }
+    const bool known = deviation_ != nullptr && as_predicted(batch, i);
+    if (wrong && known) {
+      ++outcome.known_triangles;
+      add_finding(batch, i, 1, *comparison.first, true, outcome);
+    } else if (wrong) {
+      ++outcome.unexplained;
+      add_finding(batch, i, 1, *comparison.first, false, outcome);
+    } else if (deviation_ != nullptr && !known) {
+      // Right where it is predicted to be wrong: the prediction, or the subject, is no longer what it was.
+      const Comparison obsolete = compare_one(layout, batch, predicted_, observed_[i], i);
+      if (!obsolete.first) continue;
+      ++outcome.unexplained;
+      add_finding(batch, i, 1, *obsolete.first, false, outcome);
+    }
+  }
+  return {};
+}
+
+void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
+  if (batch.scene.meshes.empty()) return;
+  WatertightChecker checker(batch.scene.setting, batch.scene.rules.subpixel_bits);
+  for (const Mesh& mesh : batch.scene.meshes) {
+    snapped_.clear();
+    for (std::size_t i = mesh.first; i < mesh.first + mesh.count; ++i) {
+      const Triangle& t = batch.scene.triangles[i];
+      const Rules& rules = batch.scene.rules;
+      snapped_.push_back({oracle::snap(rules, t[0]), oracle::snap(rules, t[1]), oracle::snap(rules, t[2])});
+    }
+    Watertightness found;
+    checker.check(snapped_, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);
+    outcome.meshes.add(found);
+    for (const auto& torn : {found.first_missing, found.first_doubled}) {
+      if (!torn) continue;
+      WrongSample wrong = *torn;
+      wrong.triangle -= first_triangle;
+      const auto triangles = std::views::iota(mesh.first, mesh.first + mesh.count);
+      const bool known = deviation_ != nullptr &&
+                         std::ranges::all_of(triangles, [&](std::size_t i) { return as_predicted(batch, i); });
+      if (!known) ++outcome.unexplained;
+      add_finding(batch, mesh.first, mesh.count, wrong, known, outcome);
+    }
+  }
+}
+
+bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
+  predicted_.resize(observed_[triangle].size());
+  deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  return std::ranges::equal(predicted_, observed_[triangle]);
+}
+
+void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
+                        Outcome& outcome) const {
+  const bool torn_mesh = count > 1;
+  const auto alike = std::ranges::count_if(outcome.findings, [&](const Finding& f) {
+    return f.known == known && (f.scene.triangles.size() > 1) == torn_mesh;
+  });
+  if (static_cast<std::size_t>(alike) >= kFindingsOfAKind) return;
+
+  Finding finding;
+  finding.scene.setting = batch.scene.setting;
+  finding.scene.rules = batch.scene.rules;
+  const auto begin = batch.scene.triangles.begin() + static_cast<std::ptrdiff_t>(first);
+  finding.scene.triangles.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+  if (torn_mesh) finding.scene.meshes.push_back({0, count});
+  const MaskLayout layout(batch.scene.setting);
+  copy_masks(layout, expected_, first, count, finding.expected);
+  copy_masks(layout, observed_, first, count, finding.observed);
+  finding.wrong = wrong;
+  finding.wrong.triangle -= first;
+  // A hole belongs to whichever triangle should have filled it: that one's edges explain it.
+  for (std::size_t i = 0; torn_mesh && wrong.kind == WrongSample::Kind::missing && i < count; ++i) {
+    if (covered(finding.expected[i], layout.bit(wrong.x, wrong.y, wrong.sample))) finding.wrong.triangle = i;
+  }
+  finding.known = known;
+  for (const Batch::Part& part : batch.parts) {
+    if (part.first <= first) finding.part_index = part.index;
+  }
+  outcome.findings.push_back(std::move(finding));
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,80 @@
+// Judging one batch of triangles: what the subject drew against what the rules demand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "conformance/compare/compare.h"
+#include "conformance/compare/watertight.h"
+#include "conformance/runner/known_deviations.h"
+#include "conformance/runner/reference.h"
+#include "conformance/scene/error.h"
+#include "conformance/scene/mask.h"
+#include "conformance/scene/scene.h"
+#include "conformance/subjects/subject.h"
+
+namespace edgecase::conformance {
+
+/// Triangles to draw at once. The scenes they came from, in order, tell where each triangle can be found again.
+struct Batch {
+  struct Part {
+    std::uint64_t index = 0;  ///< the generator's scene number
+    std::size_t first = 0;    ///< its first triangle in `scene`
+  };
+  Scene scene;
+  std::vector<Part> parts;
+  /// One mask a triangle of samples that a specification leaves open; empty if there are none.
+  std::vector<std::uint64_t> may;
+};
+
+/// One wrong sample with all it takes to show it: the triangle alone, or the mesh if it is the mesh that is torn.
+struct Finding {
+  Scene scene;
+  MaskBatch expected;
+  MaskBatch observed;
+  WrongSample wrong;             ///< its triangle counts in `scene`
+  std::uint64_t part_index = 0;  ///< the generator's scene number
+  bool known = false;            ///< predicted by a known deviation's model
+};
+
+/// What came of one subject on one case or generator. Sums up over batches.
+struct Outcome {
+  Comparison triangles;
+  Watertightness meshes;
+  std::uint64_t known_triangles = 0;  ///< wrong as predicted
+  std::uint64_t unexplained = 0;      ///< triangles wrong and not predicted, or predicted wrong and right
+  /// The first few of each kind.
+  std::vector<Finding> findings;
+};
+
+class Judge {
+ public:
+  /// `deviation` may be null. Keeps the references.
+  Judge(Subject& subject, Reference& reference, const KnownDeviation* deviation)
+      : subject_(subject), reference_(reference), deviation_(deviation) {}
+
+  /// Draws `batch`, which the subject must not refuse, and adds what came of it. `first_triangle` is the number of the
+  /// batch's first triangle in the whole run. An error means that subject or suite failed, not that samples are wrong.
+  tl::expected<void, Error> judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+
+ private:
+  tl::expected<void, Error> judge_triangles(const Batch& batch, Outcome& outcome);
+  void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  /// Whether the subject drew what its known deviation predicts for that triangle.
+  bool as_predicted(const Batch& batch, std::size_t triangle);
+  void add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
+                   Outcome& outcome) const;
+
+  Subject& subject_;
+  Reference& reference_;
+  const KnownDeviation* deviation_;
+  MaskBatch expected_;
+  MaskBatch observed_;
+  std::vector<std::uint64_t> predicted_;
+  std::vector<GridTriangle> snapped_;
+};
+
+}  // namespace edgecase::conformance

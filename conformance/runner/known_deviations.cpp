@@ -1,0 +1,76 @@
+#include "conformance/runner/known_deviations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "conformance/models/softpipe_model.h"
+
+namespace edgecase::conformance {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Model {
+  std::string_view name;
+  void (*predict)(const Setting&, const Triangle&, MutableMaskView);
+};
+
+constexpr std::array kModels{Model{"softpipe", predict_softpipe}};
+
+tl::unexpected<Error> bad(const std::filesystem::path& file, std::string_view what) {
+  return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{}: {}", file.string(), what)});
+}
+
+std::optional<std::string> text(const Json& entry, const char* field) {
+  const auto found = entry.find(field);
+  if (found == entry.end() || !found->is_string()) return std::nullopt;
+  return found->get<std::string>();
+}
+
+}  // namespace
+
+tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) return bad(file, std::strerror(errno));
+  const Json list = Json::parse(in, nullptr, /*allow_exceptions=*/false, /*ignore_comments=*/true);
+  if (!list.is_array()) return bad(file, "not a JSON array");
+
+  std::vector<KnownDeviation> result;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].is_object()) return bad(file, fmt::format("[{}]: not an object", i));
+    for (const auto& [field, value] : list[i].items()) {
+      if (field != "subject" && field != "model" && field != "cause") {
+        return bad(file, fmt::format("[{}].{}: unknown field", i, field));
+      }
+    }
+    const auto subject = text(list[i], "subject");
+    const auto model_name = text(list[i], "model");
+    const auto cause = text(list[i], "cause");
+    if (!subject || !model_name || !cause) {
+      return bad(file, fmt::format("[{}]: needs the texts subject, model and cause", i));
+    }
+    const auto model =
+        std::find_if(kModels.begin(), kModels.end(), [&](const Model& m) { return m.name == *model_name; });
+    if (model == kModels.end()) return bad(file, fmt::format("[{}].model: \"{}\" is no model", i, *model_name));
+    if (find_known_deviation(result, *subject) != nullptr) {
+      return bad(file, fmt::format("[{}].subject: \"{}\" is there twice", i, *subject));
+    }
+    result.push_back({*subject, *cause, model->predict});
+  }
+  return result;
+}
+
+const KnownDeviation* find_known_deviation(const std::vector<KnownDeviation>& all, std::string_view subject) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const KnownDeviation& known) { return known.subject == subject; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,32 @@
+// Known deviations: subjects that are wrong in a way we can predict, sample by sample.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "conformance/scene/error.h"
+#include "conformance/scene/mask.h"
+#include "conformance/scene/scene.h"
+
+namespace edgecase::conformance {
+
+/// A deviation is excused by nothing but a model that predicts every sample of the subject's masks, right and wrong
+/// ones. Where the subject follows the model it is known; where it does not, in either direction, it fails: so that an
+/// entry for a subject that has been put right cannot stay.
+struct KnownDeviation {
+  std::string subject;
+  std::string cause;
+  /// Writes every word of the mask that the subject is predicted to draw.
+  void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
+};
+
+/// Reads the list, a JSON array of {"subject", "model", "cause"}; errors name file, entry and value.
+tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std::filesystem::path& file);
+
+/// The entry for that subject, or null.
+const KnownDeviation* find_known_deviation(const std::vector<KnownDeviation>& all, std::string_view subject);
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,44 @@
+// Every subject against every testcase, on several threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "conformance/runner/known_deviations.h"
+#include "conformance/runner/testcase.h"
+#include "conformance/scene/error.h"
+#include "conformance/subjects/subject.h"
+
+namespace edgecase::conformance {
+
+struct RunPlan {
+  std::vector<std::string> subjects;
+  std::vector<Testcase> testcases;
+  std::vector<KnownDeviation> known_deviations;
+  std::uint64_t count = 0;  ///< triangles of each generator, at least
+  std::uint64_t seed = 1;
+  int jobs = 1;
+};
+
+/// One line of the result: subject and testcase are those of the plan.
+struct RunResult {
+  std::string subject;
+  std::string device;
+  std::string snap;  ///< how the subject snaps, as found out by drawing
+  Testcase testcase;
+  Trial trial;
+};
+
+/// Runs the plan. The results come subject by subject, testcase by testcase, whatever the number of jobs; on_progress
+/// is called from several threads, one at a time. An error is a subject that cannot be had, before anything is drawn.
+tl::expected<std::vector<RunResult>, Error> run(const RunPlan& plan,
+                                                const std::function<void(std::uint64_t triangles)>& on_progress);
+
+/// Triangles that `plan` will judge, about: what on_progress adds up to.
+std::uint64_t planned_triangles(const RunPlan& plan);
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,161 @@
+#include "conformance/runner/testcase.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "conformance/oracle/oracle.h"
+
+namespace edgecase::conformance {
+namespace {
+
+// As much as stays in a second-level cache with expected and observed masks side by side, and few enough triangles that
+// progress is seen.
+constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
+constexpr std::size_t kBatchTriangles = 4096;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+bool on_grid(const Scene& scene, int bits) {
+  const auto whole = [&](float v) {
+    const double scaled = std::ldexp(static_cast<double>(v), bits);
+    return scaled == std::floor(scaled);
+  };
+  return std::ranges::all_of(scene.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](const Position& p) { return whole(p.x) && whole(p.y); });
+  });
+}
+
+// Nothing if the oracle counts as many triangles on every sample as the case expects.
+std::optional<Error> contradiction(const Case& file, const Scene& scene) {
+  const MaskLayout layout(scene.setting);
+  std::vector<int> counts(layout.sample_count());
+  std::vector<std::uint64_t> mask(layout.words());
+  const auto index = [&](int x, int y, int s) {
+    return static_cast<std::size_t>((y * layout.target.width + x) * layout.samples + s);
+  };
+  const auto for_each_sample = [&](auto&& visit) {
+    for (int y = 0; y < layout.target.height; ++y)
+      for (int x = 0; x < layout.target.width; ++x)
+        for (int s = 0; s < layout.samples; ++s) visit(x, y, s);
+  };
+  for (const Triangle& triangle : scene.triangles) {
+    oracle::cover_by_definition(scene.setting, scene.rules, triangle, mask);
+    for_each_sample([&](int x, int y, int s) { counts[index(x, y, s)] += covered(mask, layout.bit(x, y, s)) ? 1 : 0; });
+  }
+  std::optional<Error> result;
+  for_each_sample([&](int x, int y, int s) {
+    const int expected = file.expect->counts[index(x, y, s)];
+    const int actual = counts[index(x, y, s)];
+    if (result || expected == Expectation::kMay || expected == actual) return;
+    result = Error{ErrorKind::bad_input,
+                   fmt::format("{}: expect: pixel ({}, {}), sample {}: the case says {} triangles, the rules say {}",
+                               file.path, x, y, s, expected, actual)};
+  });
+  return result;
+}
+
+// The samples of '?', for every triangle.
+std::vector<std::uint64_t> may_masks(const Case& file, const Scene& scene) {
+  if (!file.expect || std::ranges::find(file.expect->counts, Expectation::kMay) == file.expect->counts.end()) return {};
+  const MaskLayout layout(scene.setting);
+  std::vector<std::uint64_t> all(layout.words() * scene.triangles.size());
+  const auto samples = static_cast<std::size_t>(layout.samples);
+  const auto width = static_cast<std::size_t>(layout.target.width);
+  for (std::size_t i = 0; i < file.expect->counts.size(); ++i) {
+    if (file.expect->counts[i] != Expectation::kMay) continue;
+    const std::size_t bit = layout.bit(static_cast<int>(i / samples % width), static_cast<int>(i / samples / width),
+                                       static_cast<int>(i % samples));
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+      cover(std::span(all).subspan(t * layout.words(), layout.words()), bit);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules) {
+  Scene scene = file.scene;
+  if (subject.follows_scene_rules || scene.rules == rules) return scene;
+  if (scene.rules.subpixel_bits == rules.subpixel_bits) {
+    scene.rules = rules;
+    return scene;
+  }
+  if (!on_grid(scene, scene.rules.subpixel_bits) || !on_grid(scene, rules.subpixel_bits)) {
+    return tl::unexpected(fmt::format("the case needs {} subpixel bits, the subject has {}", scene.rules.subpixel_bits,
+                                      rules.subpixel_bits));
+  }
+  scene.rules = rules;
+  return scene;
+}
+
+Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& judge) {
+  const Stopwatch watch;
+  const double subject_seconds = subject.driver_seconds();
+  Trial trial;
+  auto scene = scene_for(file, subject.info(), rules);
+  if (!scene) {
+    trial.skipped = scene.error();
+    return trial;
+  }
+  trial.skipped = subject.refusal(*scene);
+  if (trial.skipped) return trial;
+  if (file.expect) trial.failure = contradiction(file, file.scene);
+  if (trial.failure) return trial;
+  if (file.expect && scene->rules != file.scene.rules && contradiction(file, *scene)) {
+    trial.own_snap = "covered as its own way of snapping says, which is not the one that the case expects";
+  }
+
+  Batch batch{std::move(*scene), {{0, 0}}, {}};
+  batch.may = may_masks(file, batch.scene);
+  if (auto judged = judge.judge(batch, 0, trial.outcome); !judged) trial.failure = judged.error();
+  trial.seconds = watch.seconds();
+  trial.subject_seconds = subject.driver_seconds() - subject_seconds;
+  return trial;
+}
+
+Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, Judge& judge,
+                    const TrialOptions& options) {
+  const Stopwatch watch;
+  const double subject_seconds = subject.driver_seconds();
+  Trial trial;
+  Batch batch;
+  batch.scene.setting = generator.setting;
+  batch.scene.rules = rules;
+  const std::size_t mask_bytes = MaskLayout(generator.setting).words() * sizeof(std::uint64_t);
+  const std::size_t full = std::clamp<std::size_t>(kBatchBytes / mask_bytes, 1, kBatchTriangles);
+
+  std::uint64_t index = 0;
+  for (std::uint64_t done = 0; done < options.count;) {
+    batch.scene.triangles.clear();
+    batch.scene.meshes.clear();
+    batch.parts.clear();
+    const std::uint64_t wanted = std::min<std::uint64_t>(full, options.count - done);
+    while (batch.scene.triangles.size() < wanted) {
+      batch.parts.push_back({index, batch.scene.triangles.size()});
+      append_scene(generator, options.seed, index++, batch.scene);
+    }
+    trial.skipped = subject.refusal(batch.scene);
+    if (trial.skipped) break;
+    if (auto judged = judge.judge(batch, done, trial.outcome); !judged) {
+      trial.failure = judged.error();
+      break;
+    }
+    done += batch.scene.triangles.size();
+    options.on_progress(batch.scene.triangles.size());
+  }
+  trial.seconds = watch.seconds();
+  trial.subject_seconds = subject.driver_seconds() - subject_seconds;
+  return trial;
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,53 @@
+// What a subject is tested with: a case file's scene, or a generator's stream of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "conformance/casefile/casefile.h"
+#include "conformance/generators/generator.h"
+#include "conformance/runner/judge.h"
+
+namespace edgecase::conformance {
+
+/// Exactly one of the two is there.
+struct Testcase {
+  const Case* file = nullptr;
+  const Generator* generator = nullptr;
+
+  std::uint64_t triangles(std::uint64_t count) const { return file != nullptr ? file->scene.triangles.size() : count; }
+  std::string name() const { return file != nullptr ? file->name : std::string(generator->name); }
+  std::string category() const { return file != nullptr ? file->category : std::string(generator->category); }
+};
+
+/// What a testcase came to for one subject: an outcome, or a reason why it was not drawn.
+struct Trial {
+  Outcome outcome;
+  std::optional<std::string> skipped;
+  /// Set if the subject was judged by its own way of snapping because the case's would have it cover other samples.
+  std::optional<std::string> own_snap;
+  std::optional<Error> failure;  ///< the subject crashed, or the suite contradicts itself
+  double seconds = 0;
+  double subject_seconds = 0;  ///< of these, inside the subject's own drawing
+};
+
+struct TrialOptions {
+  std::uint64_t count = 0;  ///< at least so many triangles of a generator, whole scenes
+  std::uint64_t seed = 1;
+  /// Told how many triangles have been judged since it was last called.
+  std::function<void(std::uint64_t)> on_progress = [](std::uint64_t) {};
+};
+
+/// Runs one testcase against one subject, judged by `rules` unless it follows each scene's own.
+Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& judge);
+Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, Judge& judge,
+                    const TrialOptions& options);
+
+/// The scene of `file` under the rules that a subject is judged by: the case's own if it follows each scene's, else
+/// `rules`, if the grid is the same or every vertex lies on both; otherwise why the case says nothing about it.
+tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules);
+
+}  // namespace edgecase::conformance

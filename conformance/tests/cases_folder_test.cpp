@@ -1,0 +1,127 @@
+// The case files of this repository: each one is readable, complete, right by both oracles, and like no other.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "conformance/casefile/casefile.h"
+#include "conformance/oracle/oracle.h"
+
+namespace edgecase::conformance {
+namespace {
+
+const std::filesystem::path kRoot = std::filesystem::path(EDGECASE_SOURCE_DIR) / "cases";
+
+const std::vector<Case>& all_cases() {
+  static const std::vector<Case> cases = [] {
+    std::vector<Case> loaded;
+    const auto files = find_cases(kRoot);
+    EXPECT_TRUE(files) << files.error().message;
+    for (const auto& file : *files) {
+      const auto read = load_case(file, kRoot);
+      EXPECT_TRUE(read) << read.error().message;
+      if (read) loaded.push_back(*read);
+    }
+    return loaded;
+  }();
+  return cases;
+}
+
+std::string readme() {
+  std::ifstream file(kRoot / "README.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+using Oracle = void (*)(const Setting&, const Rules&, const Triangle&, MutableMaskView);
+
+std::vector<std::int8_t> counts(const Scene& scene, Oracle oracle) {
+  const MaskLayout layout(scene.setting);
+  std::vector<std::int8_t> result(layout.sample_count());
+  std::vector<std::uint64_t> mask(layout.words());
+  for (const Triangle& triangle : scene.triangles) {
+    oracle(scene.setting, scene.rules, triangle, mask);
+    for (int y = 0; y < layout.target.height; ++y) {
+      for (int x = 0; x < layout.target.width; ++x) {
+        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(layout.target.width);
+        if (covered(mask, layout.bit(x, y, 0))) ++result[i + static_cast<std::size_t>(x)];
+      }
+    }
+  }
+  return result;
+}
+
+/// As the rows of `expect`, with '?' where `expect` has it.
+std::string as_rows(const Case& one, const std::vector<std::int8_t>& counts) {
+  std::string rows(1, '\n');
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const bool may = one.expect->counts[i] == Expectation::kMay;
+    rows += may ? '?' : counts[i] == 0 ? '.' : counts[i] == 1 ? '#' : static_cast<char>('0' + counts[i]);
+    if ((i + 1) % static_cast<std::size_t>(one.scene.setting.target.width) == 0) rows += '\n';
+  }
+  return rows;
+}
+
+TEST(CasesFolder, HasCases) { EXPECT_GE(all_cases().size(), 200u); }
+
+TEST(CasesFolder, EveryExpectationIsWhatBothOraclesSay) {
+  for (const Case& one : all_cases()) {
+    ASSERT_TRUE(one.expect) << one.path << " has no expect";
+    const std::string expected = as_rows(one, one.expect->counts);
+    EXPECT_EQ(expected, as_rows(one, counts(one.scene, oracle::cover_by_definition))) << one.path;
+    EXPECT_EQ(expected, as_rows(one, counts(one.scene, oracle::cover_by_shift))) << one.path;
+  }
+}
+
+TEST(CasesFolder, EveryCategoryIsAFolderInTheTableOfTheReadme) {
+  std::set<std::string> folders;
+  for (const Case& one : all_cases()) folders.insert(one.category);
+  std::set<std::string> documented;
+  const std::string text = readme();
+  const std::size_t heading = text.find("\n## Categories\n");
+  ASSERT_NE(heading, std::string::npos);
+  for (std::size_t at = heading; (at = text.find("\n| `", at)) != std::string::npos; at += 4)
+    documented.insert(text.substr(at + 4, text.find('`', at + 4) - at - 4));
+  EXPECT_EQ(folders, documented);
+}
+
+TEST(CasesFolder, NamesAreLowerCaseWords) {
+  for (const Case& one : all_cases()) {
+    EXPECT_EQ(one.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_/"), std::string::npos) << one.name;
+    EXPECT_EQ(std::count(one.name.begin(), one.name.end(), '/'), 1) << one.name;
+  }
+}
+
+TEST(CasesFolder, NoTwoCasesAreTheSame) {
+  std::map<std::string, std::string> first_with;
+  for (Case one : all_cases()) {
+    const std::string name = one.name;
+    one.about.assign(1, '-');
+    one.source = one.about;
+    one.expect.reset();
+    const auto [known, is_new] = first_with.emplace(write_case(one), name);
+    EXPECT_TRUE(is_new) << name << " has the scene of " << known->second;
+  }
+}
+
+TEST(CasesFolder, EveryCaseCanBeWrittenAgain) {
+  for (const Case& one : all_cases()) {
+    const auto read = parse_case(write_case(one), one.path, one.name);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->scene.setting, one.scene.setting) << one.name;
+    EXPECT_EQ(read->scene.rules, one.scene.rules) << one.name;
+    EXPECT_EQ(read->scene.triangles, one.scene.triangles) << one.name;
+    EXPECT_EQ(read->scene.meshes, one.scene.meshes) << one.name;
+    EXPECT_EQ(read->expect, one.expect) << one.name;
+  }
+}
+
+}  // namespace
+}  // namespace edgecase::conformance

@@ -1,0 +1,181 @@
+// The program as a script sees it: exit statuses, one clear line for every bad input, and files that are whole or absent.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path);
+  std::stringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    std::string pattern = (fs::temp_directory_path() / "edgecase-cli-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~CommandLine() override { fs::remove_all(folder_); }
+
+  Outcome run(const std::string& arguments, const std::string& environment = "") {
+    const std::string command = "cd '" + folder_.string() + "' && " + environment + " '" EDGECASE_PROGRAM "' " + arguments +
+                                " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "out.txt"), slurp(folder_ / "err.txt")};
+  }
+
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return name;
+  }
+
+  static void expect_one_line(const Outcome& outcome, int status, const std::string& part) {
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+
+  fs::path folder_;
+};
+
+constexpr const char* kCase = R"({"about": "A test.", "source": "none", "target": [4, 4],
+  "triangles": [[["0", "0"], ["4", "0"], ["0", "4"]]]})";
+
+TEST_F(CommandLine, RunsACaseAndWritesJson) {
+  const Outcome outcome = run("run " + write("a.json", kCase) + " --subject edgecase --json r.json --seed 5");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+  EXPECT_EQ(json["seed"], 5);
+  ASSERT_EQ(json["results"].size(), 1u);
+  const auto& result = json["results"][0];
+  EXPECT_EQ(result["subject"], "edgecase");
+  EXPECT_EQ(result["verdict"], "pass");
+  EXPECT_EQ(result["triangles"], 1);
+  EXPECT_EQ(result["samples_compared"], 16);
+  EXPECT_EQ(json["totals"]["pass"], 1);
+}
+
+TEST_F(CommandLine, AMismatchIsStatusOneWithPictureReproductionAndCommand) {
+  const Outcome outcome = run("run --subject fault:right-inclusive --generator ties --count 500 --report rep --junit j.xml");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("fail"));
+  EXPECT_THAT(slurp(folder_ / "j.xml"), HasSubstr("<failure"));
+  ASSERT_TRUE(fs::exists(folder_ / "rep/fault-right-inclusive-ties-1.png"));
+  ASSERT_TRUE(fs::exists(folder_ / "rep/fault-right-inclusive-ties-1.svg"));
+  ASSERT_TRUE(fs::exists(folder_ / "rep/index.html"));
+  // The reproduction shows the fault again, and clears the innocent.
+  EXPECT_EQ(run("run rep/fault-right-inclusive-ties-1.json --subject fault:right-inclusive --report rep2").status, 1);
+  EXPECT_EQ(run("run rep/fault-right-inclusive-ties-1.json --subject edgecase").status, 0);
+}
+
+TEST_F(CommandLine, TheSameSeedGivesTheSameResult) {
+  const std::string arguments = "run --subject fault:corner-sample --generator fan --count 3000 --report rep --json ";
+  run(arguments + "a.json --jobs 1");
+  run(arguments + "b.json --jobs 2");
+  auto a = nlohmann::json::parse(slurp(folder_ / "a.json"));
+  auto b = nlohmann::json::parse(slurp(folder_ / "b.json"));
+  for (auto* json : {&a, &b}) {
+    (*json)["totals"].erase("seconds");
+    for (auto& result : (*json)["results"]) {
+      result.erase("seconds");
+      result.erase("subject_seconds");
+    }
+  }
+  EXPECT_EQ(a, b);
+}
+
+TEST_F(CommandLine, ListsAndShows) {
+  EXPECT_THAT(run("list subjects").out, AllOf(HasSubstr("lavapipe"), HasSubstr("fault:snap-truncate")));
+  EXPECT_THAT(run("list generators").out, HasSubstr("fan"));
+  const Outcome cases = run("list cases");
+  EXPECT_EQ(cases.status, 0) << cases.err;
+  EXPECT_GE(std::count(cases.out.begin(), cases.out.end(), '\n'), 60);
+  const Outcome shown = run("show " + write("a.json", kCase));
+  EXPECT_EQ(shown.status, 0);
+  EXPECT_THAT(shown.out, AllOf(HasSubstr("A test."), HasSubstr("#")));
+  EXPECT_EQ(run("show a.json --subject fault:all-exclusive --png p.png").status, 0);
+  EXPECT_THAT(slurp(folder_ / "p.png").substr(1, 3), "PNG");
+}
+
+TEST_F(CommandLine, UnknownNamesAreBadInputAndProposeTheNearest) {
+  expect_one_line(run("run --subject lavapip"), 2, "lavapipe");
+  expect_one_line(run("run --generator fam --subject edgecase"), 2, "\"fan\"");
+  expect_one_line(run("run no_such_case --subject edgecase"), 2, "no_such_case");
+  expect_one_line(run("run gone.json --subject edgecase"), 2, "gone.json");
+  EXPECT_EQ(run("runn").status, 2);
+  EXPECT_EQ(run("run --count 0").status, 2);
+  EXPECT_EQ(run("").status, 2);
+  EXPECT_EQ(run("--help").status, 0);
+}
+
+TEST_F(CommandLine, AMissingDriverIsStatusThree) {
+  expect_one_line(run("run --subject vulkan:no-such-device --generator tiny --count 10"), 3, "no-such-device");
+  expect_one_line(run("run --subject vulkan:/no/such/icd.json --generator tiny --count 10"), 3, "/no/such/icd.json");
+}
+
+TEST_F(CommandLine, EveryBadCaseFileIsNamedWithFieldAndValue) {
+  const auto expect_bad = [&](const std::string& text, const std::string& part) {
+    SCOPED_TRACE(text);
+    const Outcome outcome = run("run " + write("bad.json", text) + " --subject edgecase --json r.json");
+    expect_one_line(outcome, 2, "bad.json");
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_FALSE(fs::exists(folder_ / "r.json"));
+  };
+  const std::string head = R"({"about": "x", "source": "y", "target": )";
+  expect_bad("", "");
+  expect_bad("{", "");
+  expect_bad(head + R"([4, 4], "trianglez": []})", "trianglez");
+  expect_bad(head + R"([4], "triangles": [[["0","0"],["1","0"],["0","1"]]]})", "target");
+  expect_bad(head + R"([0, 4], "triangles": [[["0","0"],["1","0"],["0","1"]]]})", "0");
+  expect_bad(head + R"([4, 99999], "triangles": [[["0","0"],["1","0"],["0","1"]]]})", "99999");
+  expect_bad(head + R"([4, 4], "triangles": [[["0.1","0"],["1","0"],["0","1"]]]})", "0.1");
+  expect_bad(head + R"([4, 4], "triangles": [[["1e9","0"],["1","0"],["0","1"]]]})", "1e9");
+  expect_bad(head + R"([4, 4], "triangles": [[["nan","0"],["1","0"],["0","1"]]]})", "nan");
+  expect_bad(head + R"([4, 4], "vertices": [["0","0"],["1","0"],["0","1"]], "indices": [0, 1, 7]})", "7");
+  expect_bad(head + R"([4, 4], "target": [4, 4], "triangles": [[["0","0"],["1","0"],["0","1"]]]})", "target");
+  expect_bad(head + R"([4, 4], "triangles": [[["0","0"],["1","0"],["0","1"]]], "expect": ["...."]})", "expect");
+  // What it expects contradicts the rules: the case is wrong, not the subject.
+  const Outcome contradiction = run("run " + write("c.json", head + R"([2, 1], "triangles": [[["0","0"],["2","0"],["0","2"]]],
+      "expect": ["##"]})") + " --subject edgecase");
+  EXPECT_EQ(contradiction.status, 1);
+  EXPECT_THAT(contradiction.out, HasSubstr("the case says 1 triangles, the rules say 0"));
+}
+
+TEST_F(CommandLine, FilesAreWholeOrAbsent) {
+  write("a.json", kCase);
+  expect_one_line(run("run a.json --subject edgecase --report /proc/none"), 2, "/proc/none");
+  write("file", "");
+  expect_one_line(run("run a.json --subject edgecase --report file"), 2, "file");
+  const Outcome full = run("run a.json --subject edgecase --json /dev/full");
+  EXPECT_EQ(full.status, 2);
+  EXPECT_THAT(full.err, HasSubstr("/dev/full"));
+  const Outcome nowhere = run("run a.json --subject edgecase --json no/such/folder/r.json");
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("no/such/folder/r.json"));
+}
+
+}  // namespace

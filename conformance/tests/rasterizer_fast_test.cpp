@@ -1,0 +1,169 @@
+// The fast rasterizer against the scalar one, bit for bit, for every instruction set of this machine.
+#include "rasterizer/fast/fast.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "rasterizer/rasterizer.h"
+
+namespace edgecase::rasterizer {
+namespace {
+
+using Fixed = FixedTriangle<Format16_8>;
+using Words = std::vector<std::uint64_t>;
+
+constexpr std::int64_t kLow = -8388608, kHigh = 8388607;  // the ends of 16.8
+
+FixedVertex<Format16_8> vertex(std::int64_t x, std::int64_t y) { return {*Int<24>::checked(x), *Int<24>::checked(y)}; }
+
+/// A stream of triangles, each kind of which takes another way through the code.
+class Triangles {
+ public:
+  Triangles(unsigned seed, const Target& target) : random_(seed), target_(target) {}
+
+  Fixed next() {
+    // Extents from under a pixel to all of the format, on the subpixel grid or on half pixels, each axis on its own.
+    const std::int64_t x_reach = reach(), y_reach = reach();
+    const std::int64_t step = random_() % 3 == 0 ? 128 : 1;
+    const std::int64_t width = target_.width().value() * 256, height = target_.height().value() * 256;
+    const std::int64_t x = between(-x_reach, width), y = between(-y_reach, height);
+    std::array<FixedVertex<Format16_8>, 3> result;
+    for (auto& v : result) {
+      const auto coordinate = [&](std::int64_t base, std::int64_t extent) {
+        return std::clamp((base + between(0, extent)) / step * step, kLow, kHigh);
+      };
+      v = vertex(coordinate(x, x_reach), coordinate(y, y_reach));
+    }
+    // Every now and then two vertices in one row, in one column, or in one place.
+    const auto kind = random_() % 16;
+    if (kind == 0) result[1].y = result[0].y;
+    if (kind == 1) result[1].x = result[2].x;
+    if (kind == 2) result[2] = result[0];
+    return result;
+  }
+
+ private:
+  std::int64_t between(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  std::int64_t reach() { return std::int64_t{1} << between(5, random_() % 4 == 0 ? 24 : 15); }
+
+  std::mt19937_64 random_;
+  Target target_;
+};
+
+Words scalar(std::span<const Fixed> triangles, const Target& target) {
+  Words words(target.mask_words());
+  const Mask mask = *Mask::over(target, words);
+  for (const Fixed& triangle : triangles) {
+    cover<Format16_8>(triangle, target, [&](int y, int word, std::uint64_t bits) { mask.add(y, word, bits); });
+  }
+  return words;
+}
+
+Words fast_union(const FastRasterizer& fast, std::span<const Fixed> triangles, const Target& target) {
+  StripMask mask(target);
+  fast.cover_union(triangles, mask);
+  Words words(target.mask_words());
+  mask.to_rows(words);
+  return words;
+}
+
+std::string text(const Fixed& triangle) {
+  std::ostringstream stream;
+  for (const auto& v : triangle) stream << '(' << v.x.value() << ", " << v.y.value() << ") ";
+  return stream.str();
+}
+
+class FastRasterizerTest : public testing::TestWithParam<Isa> {
+ protected:
+  /// Each triangle by cover_each() against the scalar one, then a few of them at a time by cover_union().
+  void expect_exact(std::span<const Fixed> triangles, const Target& target) const {
+    Words each(triangles.size() * target.mask_words(), ~std::uint64_t{0});
+    fast_.cover_each(triangles, target, each);
+    // As many as leave a vector of the widest kind half filled, and few enough to leave the mask partly empty.
+    constexpr std::size_t kUnited = 3 * kMaxLanes / 2;
+    Words united(target.mask_words());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const Words expected = scalar(triangles.subspan(i, 1), target);
+      const auto observed = std::span(each).subspan(i * expected.size(), expected.size());
+      ASSERT_TRUE(std::ranges::equal(observed, expected)) << "triangle " << i << ": " << text(triangles[i]);
+      for (std::size_t word = 0; word < united.size(); ++word) united[word] |= expected[word];
+      if ((i + 1) % kUnited != 0) continue;
+      ASSERT_EQ(fast_union(fast_, triangles.subspan(i + 1 - kUnited, kUnited), target), united) << "up to " << i;
+      std::ranges::fill(united, 0);
+    }
+  }
+
+  const FastRasterizer fast_ = *FastRasterizer::make(GetParam());
+};
+
+TEST_P(FastRasterizerTest, TargetsOfEveryWidth) {
+  for (int width = 1; width <= 200; ++width) {
+    const Target target = *Target::make(width, 1 + width * 7 % 40);
+    Triangles stream(static_cast<unsigned>(width), target);
+    std::vector<Fixed> triangles(24 * 9);
+    for (Fixed& triangle : triangles) triangle = stream.next();
+    ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target)) << "width " << width;
+  }
+}
+
+TEST_P(FastRasterizerTest, ManyTrianglesOnOneTarget) {
+  const Target target = *Target::make(100, 90);
+  Triangles stream(1, target);
+  std::vector<Fixed> triangles(20'000);
+  for (Fixed& triangle : triangles) triangle = stream.next();
+  ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
+}
+
+// Larger than a block, in bands of every kind: wide ones, slivers, edges of every slope.
+TEST_P(FastRasterizerTest, LargeTrianglesInsideTheTarget) {
+  const Target target = *Target::make(420, 310);
+  std::mt19937_64 random(7);
+  const auto between = [&](std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
+  };
+  std::vector<Fixed> triangles(24 * 40);
+  for (Fixed& triangle : triangles) {
+    const std::int64_t step = random() % 3 == 0 ? 128 : 1;
+    const auto point = [&](std::int64_t x, std::int64_t y) {
+      return vertex(std::clamp<std::int64_t>(x, 0, 420 * 256) / step * step,
+                    std::clamp<std::int64_t>(y, 0, 310 * 256) / step * step);
+    };
+    const std::int64_t x0 = between(0, 420 * 256), y0 = between(0, 310 * 256);
+    const std::int64_t x1 = between(0, 420 * 256), y1 = between(0, 310 * 256);
+    const std::int64_t along = between(0, 256), off = random() % 2 == 0 ? 420 * 256 : 1 << between(4, 14);
+    triangle = {
+        point(x0, y0), point(x1, y1),
+        point(x0 + (x1 - x0) * along / 256 + between(-off, off), y0 + (y1 - y0) * along / 256 + between(-off, off))};
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
+}
+
+TEST_P(FastRasterizerTest, EndsOfTheRangeOnLargeTargets) {
+  for (const auto& [width, height] : {std::array{16384, 48}, std::array{48, 16384}, std::array{2500, 2500}}) {
+    const Target target = *Target::make(width, height);
+    std::vector<Fixed> triangles{{vertex(kLow, kLow), vertex(kHigh, kLow), vertex(kLow, kHigh)},
+                                 {vertex(kHigh, kHigh), vertex(kLow, kHigh), vertex(kHigh, kLow)},
+                                 {vertex(kLow, kLow), vertex(kHigh, kHigh - 1), vertex(kHigh, kHigh)}};
+    std::mt19937_64 random(9);
+    while (triangles.size() < 48) {
+      const auto coordinate = [&] { return static_cast<std::int64_t>(random() >> 40) + kLow; };
+      triangles.push_back(
+          {vertex(coordinate(), coordinate()), vertex(coordinate(), coordinate()), vertex(coordinate(), coordinate())});
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target)) << width << "x" << height;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, FastRasterizerTest, testing::ValuesIn(available_isas().begin(), available_isas().end()),
+                         [](const auto& isa) { return std::string(name_of(isa.param)); });
+
+}  // namespace
+}  // namespace edgecase::rasterizer

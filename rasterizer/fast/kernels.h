@@ -1,0 +1,19 @@
+// What the code of an instruction set looks like from outside.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "rasterizer/fast/fast.h"
+
+namespace edgecase::rasterizer {
+
+struct FastRasterizer::Kernels {
+  void (*cover_union)(std::span<const FixedTriangle<Format16_8>> triangles, int width, const Strips& strips);
+  /// `scratch` has room for kMaxLanes masks, `apart` words from one to the next.
+  void (*cover_each)(std::span<const FixedTriangle<Format16_8>> triangles, int width, std::size_t apart,
+                     const Strips& scratch, std::uint64_t* masks);
+};
+
+}  // namespace edgecase::rasterizer
