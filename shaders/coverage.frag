@@ -26,12 +26,23 @@ uniform uint rows;
 #define COVERED (uint(gl_SampleMaskIn[0]) & ((1u << samples) - 1u))
 #endif
 
+#ifdef PRIMITIVE_ID
+#define TRIANGLE uint(gl_PrimitiveID)
+#else
 layout(location = 0) flat in uint triangle;
+#define TRIANGLE triangle
+#endif
+#ifdef COLOUR_TARGET
+layout(location = 0) out vec4 colour;  // nobody reads it: a target of its own makes a driver take other paths
+#endif
 layout(std430, binding = 0) buffer Masks { uint words[]; };
 
 void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
   uint bit = pixel.x * samples;
-  uint word = (triangle * ROWS + pixel.y) * ROW_WORDS + (bit >> 5u);
+  uint word = (TRIANGLE * ROWS + pixel.y) * ROW_WORDS + (bit >> 5u);
   atomicOr(words[word], COVERED << (bit & 31u));
+#ifdef COLOUR_TARGET
+  colour = vec4(1.0);
+#endif
 }

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "conformance/subjects/softpipe_model.h"
+#include "conformance/models/softpipe_model.h"
 
 namespace edgecase::conformance {
 namespace {

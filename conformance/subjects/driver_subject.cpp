@@ -15,6 +15,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kVulkanPrefix = "vulkan:";
 constexpr std::string_view kOsmesaPrefix = "osmesa-";
+constexpr const char* kSwiftshader = "swiftshader";
+// Where Debian's chromium package puts it; Vulkan's loader does not look there.
+constexpr const char* kSwiftshaderIcd = "/usr/lib/chromium/vk_swiftshader_icd.json";
 // Where Vulkan's loader looks for ICD files of Debian packages and of the system's owner.
 constexpr const char* kIcdFolders[] = {"/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/share/vulkan/icd.d"};
 
@@ -47,9 +50,14 @@ tl::expected<std::unique_ptr<Subject>, Error> make_driver_subject(const std::str
   if (name.starts_with(kOsmesaPrefix)) {
     command.environment = {"GALLIUM_DRIVER=" + name.substr(kOsmesaPrefix.size())};
   }
-  if (name.starts_with(kVulkanPrefix) && name.ends_with(".json")) {
-    const auto file = icd_file(name.substr(kVulkanPrefix.size()));
-    if (!file) return tl::unexpected(Error{file.error().kind, fmt::format("{}: {}", name, file.error().message)});
+  const bool by_icd = name.starts_with(kVulkanPrefix) && name.ends_with(".json");
+  if (by_icd || name == kSwiftshader) {
+    const auto file = icd_file(by_icd ? name.substr(kVulkanPrefix.size()) : kSwiftshaderIcd);
+    if (!file) {
+      return tl::unexpected(
+          Error{file.error().kind, fmt::format("{}: {}{}", name, file.error().message,
+                                               by_icd ? "" : "; the Debian package chromium brings it")});
+    }
     // Loaders before 1.3.207 know only the second name.
     command.environment = {"VK_DRIVER_FILES=" + *file, "VK_ICD_FILENAMES=" + *file};
   }

@@ -1,4 +1,5 @@
-// The subjects that are graphics drivers: lavapipe, osmesa-llvmpipe, osmesa-softpipe, vulkan:DEVICE-OR-ICD.
+// The subjects that are graphics drivers: lavapipe, lavapipe:bgra8, osmesa-llvmpipe, osmesa-softpipe,
+// swiftshader, vulkan:DEVICE-OR-ICD.
 #pragma once
 
 #include <memory>

@@ -17,13 +17,15 @@ namespace edgecase::conformance {
 // clang-format off
 #define EDGECASE_GL_FUNCTIONS(X)                                                                                      \
   X(AttachShader) X(BindBuffer) X(BindBufferBase) X(BindFramebuffer) X(BindRenderbuffer) X(BindVertexArray)           \
-  X(BufferData) X(BufferSubData) X(CheckFramebufferStatus) X(ClearBufferSubData) X(CompileShader) X(CreateProgram)    \
-  X(CreateShader) X(DeleteFramebuffers) X(DeleteRenderbuffers) X(DrawArrays) X(EnableVertexAttribArray) X(Finish)     \
-  X(FramebufferParameteri) X(FramebufferRenderbuffer) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers)            \
+  X(BufferData) X(BufferSubData) X(CheckFramebufferStatus) X(ClearBufferSubData) X(CompileShader)                     \
+  X(CreateProgram) X(CreateShader) X(CullFace) X(DeleteFramebuffers) X(DeleteRenderbuffers) X(Disable)                \
+  X(DrawArrays) X(DrawElements) X(Enable) X(EnableVertexAttribArray) X(Finish) X(FramebufferParameteri)               \
+  X(FramebufferRenderbuffer) X(FrontFace) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers)                        \
   X(GenVertexArrays) X(GetBufferSubData) X(GetError) X(GetFloatv) X(GetIntegerv) X(GetMultisamplefv)                  \
   X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetStringi)                  \
-  X(GetUniformLocation) X(LinkProgram) X(MemoryBarrier) X(RenderbufferStorageMultisample) X(ShaderSource)             \
-  X(Uniform1ui) X(UseProgram) X(VertexAttribIPointer) X(VertexAttribPointer) X(Viewport)
+  X(GetUniformLocation) X(LinkProgram) X(MemoryBarrier) X(PrimitiveRestartIndex)                                      \
+  X(RenderbufferStorageMultisample) X(Scissor) X(ShaderSource) X(Uniform1ui) X(UseProgram)                            \
+  X(VertexAttribIPointer) X(VertexAttribPointer) X(Viewport) X(ViewportIndexedf)
 // clang-format on
 
 struct GlFunctions {

@@ -20,7 +20,8 @@ constexpr std::string_view kEdgecaseFamily = "edgecase:";
 constexpr std::string_view kFaultFamily = "fault:";
 constexpr std::string_view kInexactFamily = "inexact:";
 constexpr std::string_view kVulkanFamily = "vulkan:";
-constexpr std::string_view kDrivers[] = {"lavapipe", "osmesa-llvmpipe", "osmesa-softpipe"};
+constexpr std::string_view kDrivers[] = {"lavapipe", "lavapipe:bgra8", "osmesa-llvmpipe", "osmesa-softpipe",
+                                         "swiftshader"};
 
 tl::unexpected<Error> unknown(const std::string& name) {
   const std::vector<SubjectName> subjects = subject_names();
@@ -40,8 +41,10 @@ std::vector<SubjectName> subject_names() {
       {"edgecase", "our own rasterizer"},
       {"edgecase:scalar", "its incremental reference"},
       {"lavapipe", "Mesa's llvmpipe through Vulkan"},
+      {"lavapipe:bgra8", "the same with a B8G8R8A8 colour target, for which it has other code paths"},
       {"osmesa-llvmpipe", "Mesa's llvmpipe through OpenGL"},
       {"osmesa-softpipe", "Mesa's older rasterizer through OpenGL; breaks the rules, in ways that are known"},
+      {"swiftshader", "Google's software rasterizer through Vulkan; optional, from Debian's package chromium"},
       {"vulkan:DEVICE-OR-ICD", "a Vulkan driver, by part of its device's name or by its ICD file (.json)"}};
   for (const FamilySubjectName& member : family_subjects()) {
     if (member.name == "scalar") continue;  // is there already, for every number of subpixel bits

@@ -66,29 +66,40 @@ struct Candidate {
   }
 };
 
-std::vector<int> sample_counts(const vk::PhysicalDeviceLimits& limits) {
+std::vector<int> sample_counts(const vk::PhysicalDeviceLimits& limits, bool colour_target) {
   std::vector<int> counts;
+  const vk::SampleCountFlags offered =
+      colour_target ? limits.framebufferColorSampleCounts : limits.framebufferNoAttachmentsSampleCounts;
   for (const int count : {1, 2, 4, 8, 16}) {
-    const bool has =
-        static_cast<bool>(limits.framebufferNoAttachmentsSampleCounts & static_cast<vk::SampleCountFlagBits>(count));
+    const bool has = static_cast<bool>(offered & static_cast<vk::SampleCountFlagBits>(count));
     // One sample lies in the pixel's centre in every driver; where several lie is known only of the standard ones.
     if (has && (count == 1 || limits.standardSampleLocations != VK_FALSE)) counts.push_back(count);
   }
   return counts;
 }
 
-SubjectInfo describe(const Candidate& candidate) {
+// A colour image of 16,384 pixels a side would take a gibibyte.
+constexpr int kMaxColourTarget = 4096;
+
+SubjectInfo describe(const Candidate& candidate, bool colour_target) {
   const vk::PhysicalDeviceLimits limits = candidate.device.getProperties().limits;
   SubjectInfo info;
   info.device = fmt::format("{}, {}", candidate.name, candidate.driver);
   info.rules.subpixel_bits = static_cast<int>(limits.subPixelPrecisionBits);
-  info.sample_counts = sample_counts(limits);
+  info.sample_counts = sample_counts(limits, colour_target);
   info.max_target = static_cast<int>(std::min(
       {limits.maxFramebufferWidth, limits.maxFramebufferHeight, static_cast<std::uint32_t>(kMaxTargetExtent)}));
+  if (colour_target) info.max_target = std::min(info.max_target, kMaxColourTarget);
+  info.scissor = true;
+  info.cull = true;
+  // gl_PrimitiveID needs them.
+  info.assembly = candidate.device.getFeatures().geometryShader != VK_FALSE;
+  info.clip = true;
+  info.flipped_viewport = true;
+  info.max_viewport = static_cast<float>(std::min(limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]));
+  info.viewport_bound = std::min(-limits.viewportBoundsRange[0], limits.viewportBoundsRange[1]);
   // The viewport spans [-half, half]: its size and both its ends are limited.
-  const float bound = 2 * std::min(-limits.viewportBoundsRange[0], limits.viewportBoundsRange[1]);
-  const auto extent =
-      std::min({limits.maxViewportDimensions[0], limits.maxViewportDimensions[1], static_cast<std::uint32_t>(bound)});
+  const auto extent = static_cast<std::uint32_t>(std::min(info.max_viewport, 2 * info.viewport_bound));
   info.max_coordinate = static_cast<double>(EnclosingViewport::within(extent).half());
   return info;
 }
@@ -113,9 +124,10 @@ struct VulkanDevice::State {
   std::uint32_t queue_family = 0;
   SubjectInfo info;
   std::size_t max_storage_bytes = 0;
+  bool colour_target = false;
 
   void create_instance(bool validation);
-  tl::expected<void, Error> choose(const std::string& name);
+  tl::expected<void, Error> choose(const VulkanSelection& selection);
   tl::expected<void, Error> create_device();
 };
 
@@ -138,7 +150,8 @@ void VulkanDevice::State::create_instance(bool validation) {
   messenger = vk::raii::DebugUtilsMessengerEXT(instance, listen);
 }
 
-tl::expected<void, Error> VulkanDevice::State::choose(const std::string& name) {
+tl::expected<void, Error> VulkanDevice::State::choose(const VulkanSelection& selection) {
+  const std::string& name = selection.name;
   std::vector<Candidate> candidates;
   for (vk::raii::PhysicalDevice& offered : vk::raii::PhysicalDevices(instance)) {
     if (offered.getProperties().apiVersion >= VK_API_VERSION_1_2) candidates.emplace_back(std::move(offered));
@@ -151,7 +164,8 @@ tl::expected<void, Error> VulkanDevice::State::choose(const std::string& name) {
     return absent(fmt::format("no Vulkan 1.2 device is called \"{}\"; the loader offers: {}", name,
                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, "; "))));
   }
-  info = describe(*found);
+  info = describe(*found, selection.colour_target);
+  colour_target = selection.colour_target;
   max_storage_bytes = found->device.getProperties().limits.maxStorageBufferRange;
   physical = std::move(found->device);
   return {};
@@ -168,6 +182,7 @@ tl::expected<void, Error> VulkanDevice::State::create_device() {
   const vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
   vk::PhysicalDeviceFeatures features;
   features.fragmentStoresAndAtomics = VK_TRUE;
+  features.geometryShader = info.assembly ? VK_TRUE : VK_FALSE;
   device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue, {}, {}, &features));
   return {};
 }
@@ -181,7 +196,7 @@ tl::expected<std::unique_ptr<VulkanDevice>, Error> VulkanDevice::open(const Vulk
   }
   try {
     state->create_instance(selection.validation);
-    if (auto chosen = state->choose(selection.name); !chosen) return tl::unexpected(chosen.error());
+    if (auto chosen = state->choose(selection); !chosen) return tl::unexpected(chosen.error());
     if (auto created = state->create_device(); !created) return tl::unexpected(created.error());
   } catch (const vk::LayerNotPresentError&) {
     return absent(
@@ -202,6 +217,7 @@ const vk::raii::Device& VulkanDevice::device() const { return state_->device; }
 std::uint32_t VulkanDevice::queue_family() const { return state_->queue_family; }
 const SubjectInfo& VulkanDevice::info() const { return state_->info; }
 std::size_t VulkanDevice::max_storage_bytes() const { return state_->max_storage_bytes; }
+bool VulkanDevice::colour_target() const { return state_->colour_target; }
 std::optional<std::string> VulkanDevice::take_complaint() { return state_->complaints.take(); }
 
 }  // namespace edgecase::conformance

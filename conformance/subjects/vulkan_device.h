@@ -24,6 +24,8 @@ struct VulkanSelection {
   std::string name;
   /// With VK_LAYER_KHRONOS_validation and its synchronization checks.
   bool validation = false;
+  /// Draws to a B8G8R8A8 image as well, which nobody reads: drivers take other paths then.
+  bool colour_target = false;
 };
 
 class VulkanDevice {
@@ -40,6 +42,7 @@ class VulkanDevice {
   /// All but the name, from the driver's own limits.
   const SubjectInfo& info() const;
   std::size_t max_storage_bytes() const;
+  bool colour_target() const;
 
   /// The first thing that the validation layer complained of since the last call.
   std::optional<std::string> take_complaint();

@@ -6,14 +6,11 @@
 #include <bit>
 #include <chrono>
 #include <cstring>
-#include <map>
 #include <utility>
 #include <vulkan/vulkan_raii.hpp>
 
 #include "conformance/scene/mask.h"
-#include "conformance/subjects/enclosing_viewport.h"
-#include "shaders/coverage_frag_spirv.h"
-#include "shaders/coverage_vert_spirv.h"
+#include "conformance/subjects/vulkan_pipelines.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -24,9 +21,6 @@ struct PushConstants {
   std::uint32_t rows;
 };
 
-// Per sample count; enough for the sizes that a run alternates between.
-constexpr std::size_t kKeptFramebuffers = 64;
-
 // A buffer in coherent memory that stays mapped.
 struct MappedBuffer {
   vk::raii::Buffer buffer{nullptr};
@@ -35,51 +29,34 @@ struct MappedBuffer {
   std::size_t size = 0;
 };
 
-// Host-visible and coherent memory, which every device has, and cached by the host where there is such.
-std::uint32_t mappable_type(const vk::PhysicalDeviceMemoryProperties& properties, std::uint32_t allowed) {
-  using Flag = vk::MemoryPropertyFlagBits;
-  const vk::MemoryPropertyFlags needed = Flag::eHostVisible | Flag::eHostCoherent;
-  for (const auto wanted : {needed | Flag::eHostCached, needed}) {
-    for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
-      if ((allowed >> i & 1U) != 0 && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
-    }
-  }
-  return 0;
-}
-
 class VulkanDriver final : public Driver {
  public:
   explicit VulkanDriver(std::unique_ptr<VulkanDevice> opened);
 
   const SubjectInfo& info() const override { return opened_->info(); }
   std::size_t max_mask_bytes() const override { return opened_->max_storage_bytes(); }
-  tl::expected<double, Error> draw(const Setting& setting, std::span<const Triangle> triangles,
+  tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
                                    std::span<std::uint64_t> masks) override;
 
  private:
-  // What depends on the sample count, and the framebuffers of that count.
-  struct Pass {
-    vk::raii::RenderPass render_pass{nullptr};
-    vk::raii::Pipeline pipeline{nullptr};
-    std::map<std::pair<int, int>, vk::raii::Framebuffer> framebuffers;
-  };
   // What the command buffer was recorded for.
   struct Recorded {
-    MaskLayout layout{Setting{}};
+    Setting setting;
+    Viewport viewport;
+    Topology topology = Topology::list;
+    std::size_t vertices = 0;
+    std::size_t indices = 0;
     std::size_t triangles = 0;
     friend bool operator==(const Recorded&, const Recorded&) = default;
   };
 
   MappedBuffer make_buffer(std::size_t size, vk::BufferUsageFlags usage) const;
-  void reserve(std::size_t vertex_bytes, std::size_t mask_bytes);
-  vk::raii::Pipeline make_pipeline(vk::SampleCountFlagBits samples, vk::RenderPass render_pass) const;
-  Pass& pass_for(int samples);
-  vk::Framebuffer framebuffer_for(const MaskLayout& layout);
+  void reserve(const Primitives& primitives, std::size_t mask_bytes);
+  void record_draw(const Recorded& wanted);
   void record(const Recorded& wanted);
 
   std::unique_ptr<VulkanDevice> opened_;
   const vk::raii::Device& device_;
-  EnclosingViewport viewport_;
   vk::raii::Queue queue_;
   vk::raii::DescriptorSetLayout set_layout_;
   vk::raii::PipelineLayout pipeline_layout_{nullptr};
@@ -88,8 +65,9 @@ class VulkanDriver final : public Driver {
   vk::raii::CommandPool command_pool_;
   vk::raii::CommandBuffer commands_{nullptr};
   vk::raii::Fence finished_;
-  std::map<int, Pass> passes_;
+  std::optional<VulkanPipelines> pipelines_;
   MappedBuffer vertices_;
+  MappedBuffer indices_;
   MappedBuffer masks_;
   std::optional<Recorded> recorded_;
 };
@@ -100,13 +78,13 @@ constexpr auto kBinding =
 VulkanDriver::VulkanDriver(std::unique_ptr<VulkanDevice> opened)
     : opened_(std::move(opened)),
       device_(opened_->device()),
-      viewport_(static_cast<float>(opened_->info().max_coordinate)),
       queue_(device_, opened_->queue_family(), 0),
       set_layout_(device_, vk::DescriptorSetLayoutCreateInfo({}, kBinding)),
       command_pool_(device_, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, opened_->queue_family()}),
       finished_(device_, vk::FenceCreateInfo{}) {
   const vk::PushConstantRange push(vk::ShaderStageFlagBits::eFragment, 0, sizeof(PushConstants));
   pipeline_layout_ = vk::raii::PipelineLayout(device_, vk::PipelineLayoutCreateInfo({}, *set_layout_, push));
+  pipelines_.emplace(*opened_, *pipeline_layout_);
   const vk::DescriptorPoolSize pool_size(vk::DescriptorType::eStorageBuffer, 1);
   const auto may_free = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet;
   descriptor_pool_ = vk::raii::DescriptorPool(device_, vk::DescriptorPoolCreateInfo(may_free, 1, pool_size));
@@ -119,7 +97,11 @@ MappedBuffer VulkanDriver::make_buffer(std::size_t size, vk::BufferUsageFlags us
   MappedBuffer result;
   result.buffer = vk::raii::Buffer(device_, vk::BufferCreateInfo({}, size, usage));
   const vk::MemoryRequirements needs = result.buffer.getMemoryRequirements();
-  const auto type = mappable_type(opened_->physical().getMemoryProperties(), needs.memoryTypeBits);
+  // Host-visible and coherent memory, which every device has, and cached by the host where there is such.
+  using Flag = vk::MemoryPropertyFlagBits;
+  const vk::MemoryPropertyFlags needed = Flag::eHostVisible | Flag::eHostCoherent;
+  const auto type = memory_type(opened_->physical().getMemoryProperties(), needs.memoryTypeBits,
+                                {needed | Flag::eHostCached, needed});
   result.memory = vk::raii::DeviceMemory(device_, vk::MemoryAllocateInfo(needs.size, type));
   result.buffer.bindMemory(*result.memory, 0);
   result.data = result.memory.mapMemory(0, size);
@@ -128,10 +110,14 @@ MappedBuffer VulkanDriver::make_buffer(std::size_t size, vk::BufferUsageFlags us
 }
 
 // Buffers double in size, so that equal and smaller batches allocate nothing.
-void VulkanDriver::reserve(std::size_t vertex_bytes, std::size_t mask_bytes) {
+void VulkanDriver::reserve(const Primitives& primitives, std::size_t mask_bytes) {
   using Usage = vk::BufferUsageFlagBits;
-  if (vertices_.size < vertex_bytes) {
-    vertices_ = make_buffer(std::bit_ceil(vertex_bytes), Usage::eVertexBuffer);
+  if (vertices_.size < primitives.vertices.size_bytes()) {
+    vertices_ = make_buffer(std::bit_ceil(primitives.vertices.size_bytes()), Usage::eVertexBuffer);
+    recorded_.reset();
+  }
+  if (indices_.size < primitives.indices.size_bytes()) {
+    indices_ = make_buffer(std::bit_ceil(primitives.indices.size_bytes()), Usage::eIndexBuffer);
     recorded_.reset();
   }
   if (masks_.size < mask_bytes) {
@@ -144,98 +130,65 @@ void VulkanDriver::reserve(std::size_t vertex_bytes, std::size_t mask_bytes) {
   }
 }
 
-vk::raii::Pipeline VulkanDriver::make_pipeline(vk::SampleCountFlagBits samples, vk::RenderPass render_pass) const {
-  using Stage = vk::ShaderStageFlagBits;
-  const vk::raii::ShaderModule vertex(device_, vk::ShaderModuleCreateInfo({}, coverage_vert_spirv));
-  const vk::raii::ShaderModule fragment(device_, vk::ShaderModuleCreateInfo({}, coverage_frag_spirv));
-  const auto count = static_cast<std::uint32_t>(samples);
-  const vk::SpecializationMapEntry entry(0, 0, sizeof count);
-  const vk::SpecializationInfo constants(1, &entry, sizeof count, &count);
-  const std::array stages{vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex, "main"),
-                          vk::PipelineShaderStageCreateInfo({}, Stage::eFragment, *fragment, "main", &constants)};
-
-  const vk::VertexInputBindingDescription binding(0, sizeof(Position), vk::VertexInputRate::eVertex);
-  const vk::VertexInputAttributeDescription position(0, 0, vk::Format::eR32G32Sfloat, 0);
-  const vk::PipelineVertexInputStateCreateInfo input({}, binding, position);
-  const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
-  const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
-  vk::PipelineRasterizationStateCreateInfo raster;
-  raster.cullMode = vk::CullModeFlagBits::eNone;
-  raster.lineWidth = 1;
-  const vk::PipelineMultisampleStateCreateInfo multisample({}, samples);
-  const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
-  const vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
-  vk::GraphicsPipelineCreateInfo create({}, stages, &input, &assembly, nullptr, &viewport, &raster, &multisample);
-  create.setPDynamicState(&dynamic_state).setLayout(*pipeline_layout_).setRenderPass(render_pass);
-  return {device_, nullptr, create};
-}
-
-VulkanDriver::Pass& VulkanDriver::pass_for(int samples) {
-  if (const auto found = passes_.find(samples); found != passes_.end()) return found->second;
-  Pass pass;
-  const vk::SubpassDescription subpass({}, vk::PipelineBindPoint::eGraphics);
-  pass.render_pass = vk::raii::RenderPass(device_, vk::RenderPassCreateInfo({}, {}, subpass));
-  pass.pipeline = make_pipeline(static_cast<vk::SampleCountFlagBits>(samples), *pass.render_pass);
-  return passes_.emplace(samples, std::move(pass)).first->second;
-}
-
-vk::Framebuffer VulkanDriver::framebuffer_for(const MaskLayout& layout) {
-  Pass& pass = pass_for(layout.samples);
-  const std::pair key(layout.target.width, layout.target.height);
-  auto found = pass.framebuffers.find(key);
-  if (found == pass.framebuffers.end()) {
-    if (pass.framebuffers.size() == kKeptFramebuffers) pass.framebuffers.clear();
-    const vk::FramebufferCreateInfo create({}, *pass.render_pass, {}, static_cast<std::uint32_t>(key.first),
-                                           static_cast<std::uint32_t>(key.second), 1);
-    found = pass.framebuffers.emplace(key, vk::raii::Framebuffer(device_, create)).first;
+void VulkanDriver::record_draw(const Recorded& wanted) {
+  const Setting& setting = wanted.setting;
+  const MaskLayout layout(setting);
+  const bool plain_list = wanted.topology == Topology::list && wanted.indices == 0;
+  const auto pipeline = pipelines_->pipeline(
+      {layout.samples, setting.cull, setting.front_face, wanted.topology, /*primitive_id=*/!plain_list});
+  const auto rect = [](const Rect& r) {
+    return vk::Rect2D({r.x, r.y}, {static_cast<std::uint32_t>(r.width), static_cast<std::uint32_t>(r.height)});
+  };
+  const Viewport& viewport = wanted.viewport;
+  const PushConstants push{static_cast<std::uint32_t>(layout.row_words() * 2),
+                           static_cast<std::uint32_t>(layout.target.height)};
+  const auto render_pass = pipelines_->render_pass(layout.samples);
+  const auto framebuffer = pipelines_->framebuffer(layout.samples, layout.target);
+  commands_.beginRenderPass({render_pass, framebuffer, rect({0, 0, layout.target.width, layout.target.height})},
+                            vk::SubpassContents::eInline);
+  commands_.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+  commands_.setViewport(0, vk::Viewport(viewport.x, viewport.y, viewport.width, viewport.height, 0, 1));
+  commands_.setScissor(0, rect(drawn_rectangle(setting)));
+  commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipeline_layout_, 0, *descriptor_set_, {});
+  commands_.pushConstants<PushConstants>(*pipeline_layout_, vk::ShaderStageFlagBits::eFragment, 0, push);
+  commands_.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
+  if (wanted.indices == 0) {
+    commands_.draw(static_cast<std::uint32_t>(wanted.vertices), 1, 0, 0);
+  } else {
+    commands_.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
+    commands_.drawIndexed(static_cast<std::uint32_t>(wanted.indices), 1, 0, 0, 0);
   }
-  return *found->second;
+  commands_.endRenderPass();
 }
 
 void VulkanDriver::record(const Recorded& wanted) {
   if (recorded_ == wanted) return;
   using Access = vk::AccessFlagBits;
   using Stage = vk::PipelineStageFlagBits;
-  const MaskLayout& layout = wanted.layout;
-  const Pass& pass = pass_for(layout.samples);
-  const vk::Framebuffer framebuffer = framebuffer_for(layout);
-  const vk::Rect2D target(
-      {}, {static_cast<std::uint32_t>(layout.target.width), static_cast<std::uint32_t>(layout.target.height)});
-  const float half = viewport_.half();
-  const PushConstants push{static_cast<std::uint32_t>(layout.row_words() * 2),
-                           static_cast<std::uint32_t>(layout.target.height)};
-
   recorded_.reset();
   commands_.reset();
   commands_.begin(vk::CommandBufferBeginInfo{});
-  commands_.fillBuffer(*masks_.buffer, 0, layout.words() * sizeof(std::uint64_t) * wanted.triangles, 0);
+  commands_.fillBuffer(*masks_.buffer, 0, MaskLayout(wanted.setting).words() * sizeof(std::uint64_t) * wanted.triangles,
+                       0);
   const vk::MemoryBarrier cleared(Access::eTransferWrite, Access::eShaderRead | Access::eShaderWrite);
   commands_.pipelineBarrier(Stage::eTransfer, Stage::eFragmentShader, {}, cleared, {}, {});
-  commands_.beginRenderPass({*pass.render_pass, framebuffer, target}, vk::SubpassContents::eInline);
-  commands_.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass.pipeline);
-  commands_.setViewport(0, vk::Viewport(-half, -half, 2 * half, 2 * half, 0, 1));
-  commands_.setScissor(0, target);
-  commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipeline_layout_, 0, *descriptor_set_, {});
-  commands_.pushConstants<PushConstants>(*pipeline_layout_, vk::ShaderStageFlagBits::eFragment, 0, push);
-  commands_.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
-  commands_.draw(static_cast<std::uint32_t>(3 * wanted.triangles), 1, 0, 0);
-  commands_.endRenderPass();
+  record_draw(wanted);
   const vk::MemoryBarrier drawn(Access::eShaderWrite, Access::eHostRead);
   commands_.pipelineBarrier(Stage::eFragmentShader, Stage::eHost, {}, drawn, {}, {});
   commands_.end();
   recorded_ = wanted;
 }
 
-tl::expected<double, Error> VulkanDriver::draw(const Setting& setting, std::span<const Triangle> triangles,
+tl::expected<double, Error> VulkanDriver::draw(const Setting& setting, const Primitives& primitives,
                                                std::span<std::uint64_t> masks) {
   double seconds = 0;
+  if (primitives.triangles == 0) return seconds;
   try {
-    reserve(triangles.size_bytes(), masks.size_bytes());
-    record({MaskLayout(setting), triangles.size()});
-    auto* vertex = static_cast<Position*>(vertices_.data);
-    for (const Triangle& triangle : triangles) {
-      for (const Position& p : triangle) *vertex++ = {viewport_.ndc(p.x), viewport_.ndc(p.y)};
-    }
+    reserve(primitives, masks.size_bytes());
+    record({setting, primitives.viewport, primitives.topology, primitives.vertices.size(), primitives.indices.size(),
+            primitives.triangles});
+    std::ranges::copy(primitives.vertices, static_cast<ClipPosition*>(vertices_.data));
+    std::ranges::copy(primitives.indices, static_cast<std::uint32_t*>(indices_.data));
     const auto start = std::chrono::steady_clock::now();
     queue_.submit(vk::SubmitInfo({}, {}, *commands_), *finished_);
     // No limit here: the program watches the time, and ends the process.

@@ -27,11 +27,13 @@ tl::expected<std::unique_ptr<Driver>, Error> open_driver(std::string_view subjec
   // lavapipe's device and driver both call themselves llvmpipe. Of an ICD file, which VK_DRIVER_FILES names by now, the
   // first device is taken.
   VulkanSelection selection{"llvmpipe", validation_is_on()};
+  selection.colour_target = subject == "lavapipe:bgra8";
+  if (subject == "swiftshader") selection.name = "SwiftShader";
   if (subject.starts_with(kVulkan)) {
     selection.name = subject.ends_with(".json") ? "" : subject.substr(kVulkan.size());
   }
   auto driver = open_vulkan_driver(selection);
-  if (!driver && driver.error().kind == ErrorKind::absent && subject == "lavapipe") {
+  if (!driver && driver.error().kind == ErrorKind::absent && subject.starts_with("lavapipe")) {
     return tl::unexpected(
         Error{ErrorKind::absent, driver.error().message + "; the Debian package mesa-vulkan-drivers brings lavapipe"});
   }

@@ -1,5 +1,5 @@
 // What the program and a worker process say to each other. Both are built from this file at once, so plain structs are
-// the format. Messages go as whole packets over a SOCK_SEQPACKET pair; triangles and masks lie in a shared memory file.
+// the format. Messages go as whole packets over a SOCK_SEQPACKET pair; vertices and masks lie in a shared memory file.
 #pragma once
 
 #include <array>
@@ -48,17 +48,34 @@ struct WorkerHello {
   std::array<std::int32_t, 8> sample_counts{};
   std::uint32_t sample_count_number = 0;
   std::int32_t max_target = 0;
+  bool scissor = false;
+  bool cull = false;
+  bool assembly = false;
+  bool clip = false;
+  bool flipped_viewport = false;
+  float max_viewport = 0;
+  float viewport_bound = 0;
   double max_coordinate = 0;
   std::uint64_t max_mask_bytes = 0;
 };
 
-/// Program to worker: draw the triangles that lie at the start of the shared memory, leave the masks at `masks_offset`.
+/// Program to worker: draw what lies at the start of the shared memory, leave the masks at `masks_offset`. The
+/// vertices, as ClipPosition, lie at its very start.
 struct DrawRequest {
   std::int32_t width = 0;
   std::int32_t height = 0;
   std::int32_t samples = 0;  ///< at standard locations
+  bool has_scissor = false;
+  Rect scissor;
+  CullMode cull = CullMode::none;
+  FrontFace front_face = FrontFace::clockwise;
+  Viewport viewport;
+  Topology topology = Topology::list;
   std::uint64_t triangles = 0;
-  std::uint64_t masks_offset = 0;  ///< bytes, a multiple of 8
+  std::uint64_t vertices = 0;
+  std::uint64_t indices = 0;
+  std::uint64_t indices_offset = 0;  ///< bytes, a multiple of 8, as the next
+  std::uint64_t masks_offset = 0;
   std::uint64_t memory_bytes = 0;  ///< the shared memory's present size; it only grows
 };
 

@@ -56,6 +56,13 @@ WorkerHello describe(const Driver& driver) {
       static_cast<std::uint32_t>(std::min(info.sample_counts.size(), hello.sample_counts.size()));
   std::copy_n(info.sample_counts.begin(), hello.sample_count_number, hello.sample_counts.begin());
   hello.max_target = info.max_target;
+  hello.scissor = info.scissor;
+  hello.cull = info.cull;
+  hello.assembly = info.assembly;
+  hello.clip = info.clip;
+  hello.flipped_viewport = info.flipped_viewport;
+  hello.max_viewport = info.max_viewport;
+  hello.viewport_bound = info.viewport_bound;
   hello.max_coordinate = info.max_coordinate;
   hello.max_mask_bytes = driver.max_mask_bytes();
   return hello;
@@ -71,10 +78,19 @@ DrawReply draw(Driver& driver, SharedMemory& memory, const DrawRequest& request)
   Setting setting;
   setting.target = {request.width, request.height};
   setting.sample_locations.assign(locations.begin(), locations.end());
-  const std::span triangles(reinterpret_cast<const Triangle*>(memory.data()), request.triangles);
+  if (request.has_scissor) setting.scissor = request.scissor;
+  setting.cull = request.cull;
+  setting.front_face = request.front_face;
+  Primitives primitives;
+  primitives.viewport = request.viewport;
+  primitives.vertices = {reinterpret_cast<const ClipPosition*>(memory.data()), request.vertices};
+  primitives.topology = request.topology;
+  primitives.indices = {reinterpret_cast<const std::uint32_t*>(memory.data() + request.indices_offset),
+                        request.indices};
+  primitives.triangles = request.triangles;
   const std::span masks(reinterpret_cast<std::uint64_t*>(memory.data() + request.masks_offset),
                         MaskLayout(setting).words() * request.triangles);
-  if (auto seconds = driver.draw(setting, triangles, masks)) {
+  if (auto seconds = driver.draw(setting, primitives, masks)) {
     reply.driver_seconds = *seconds;
   } else {
     reply.status.set(seconds.error());

@@ -39,18 +39,30 @@ WorkerSubject::WorkerSubject(const std::string& name, WorkerCommand command, std
   info_.rules = hello.rules;
   info_.sample_counts.assign(hello.sample_counts.begin(), hello.sample_counts.begin() + hello.sample_count_number);
   info_.max_target = hello.max_target;
+  info_.scissor = hello.scissor;
+  info_.cull = hello.cull;
+  info_.assembly = hello.assembly;
+  info_.clip = hello.clip;
+  info_.flipped_viewport = hello.flipped_viewport;
+  info_.max_viewport = hello.max_viewport;
+  info_.viewport_bound = hello.viewport_bound;
   info_.max_coordinate = hello.max_coordinate;
 }
 
 std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
   if (auto reason = Subject::refusal(scene)) return reason;
-  if (scene.setting.cull != CullMode::none) return "culling";
-  if (scene.assembly) return "primitives that the driver would assemble";
-  if (scene.clip) return "clip-space geometry";
   if (!has_standard_samples(scene.setting)) return "sample locations other than the standard ones";
   const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
   if (mask_bytes > max_mask_bytes_) {
     return fmt::format("a mask of {} bytes is larger than its largest buffer, {}", mask_bytes, max_mask_bytes_);
+  }
+  if (scene.assembly && scene.assembly->topology == Topology::list &&
+      std::ranges::count(scene.assembly->indices, kRestartIndex) != 0) {
+    return "a restart index in a list of triangles";
+  }
+  if (scene.assembly && mask_bytes * scene.triangles.size() > max_mask_bytes_) {
+    return fmt::format("{} triangles in one assembly: their masks exceed its largest buffer, {} bytes",
+                       scene.triangles.size(), max_mask_bytes_);
   }
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     for (std::size_t v = 0; v < 3; ++v) {
@@ -66,16 +78,57 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
 
 tl::expected<void, Error> WorkerSubject::draw(const Scene& scene, MaskBatch& masks) {
   const MaskLayout layout(scene.setting);
-  masks.reset(layout, scene.triangles.size());
+  const std::size_t triangles = scene.clip ? scene.clip->triangles.size() : scene.triangles.size();
+  masks.reset(layout, triangles);
   const std::size_t mask_bytes = layout.words() * sizeof(std::uint64_t);
-  const std::size_t part = std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
-  for (std::size_t first = 0; first < scene.triangles.size(); first += part) {
-    const std::size_t count = std::min(part, scene.triangles.size() - first);
+  // An assembly cannot be split: its triangles share vertices, and are numbered through.
+  const std::size_t part =
+      scene.assembly ? triangles : std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
+  for (std::size_t first = 0; first < triangles; first += part) {
+    const std::size_t count = std::min(part, triangles - first);
     if (auto drawn = draw_part(scene, first, count, masks); !drawn) {
       return tl::unexpected(Error{drawn.error().kind, fmt::format("{}: {}", info_.name, drawn.error().message)});
     }
   }
   return {};
+}
+
+tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std::size_t first, std::size_t count) {
+  const MaskLayout layout(scene.setting);
+  DrawRequest request;
+  request.width = layout.target.width;
+  request.height = layout.target.height;
+  request.samples = layout.samples;
+  request.has_scissor = scene.setting.scissor.has_value();
+  request.scissor = scene.setting.scissor.value_or(Rect{});
+  request.cull = scene.setting.cull;
+  request.front_face = scene.setting.front_face;
+  const float half = viewport_.half();
+  request.viewport = scene.clip ? scene.clip->viewport : Viewport{-half, -half, 2 * half, 2 * half};
+  request.topology = scene.assembly ? scene.assembly->topology : Topology::list;
+  request.triangles = count;
+  request.vertices = scene.assembly ? scene.assembly->vertices.size() : 3 * count;
+  request.indices = scene.assembly ? scene.assembly->indices.size() : 0;
+  request.indices_offset = aligned(request.vertices * sizeof(ClipPosition));
+  request.masks_offset = request.indices_offset + aligned(request.indices * sizeof(std::uint32_t));
+  SharedMemory& memory = worker_->memory();
+  if (auto grown = memory.grow(request.masks_offset + layout.words() * sizeof(std::uint64_t) * count); !grown) {
+    return tl::unexpected(grown.error());
+  }
+  request.memory_bytes = memory.size();
+
+  auto* vertex = reinterpret_cast<ClipPosition*>(memory.data());
+  const auto add = [&](const Position& p) { *vertex++ = {viewport_.ndc(p.x), viewport_.ndc(p.y), 0, 1}; };
+  if (scene.clip) {
+    for (std::size_t t = first; t < first + count; ++t) vertex = std::ranges::copy(scene.clip->triangles[t], vertex).out;
+  } else if (scene.assembly) {
+    std::ranges::for_each(scene.assembly->vertices, add);
+    std::ranges::copy(scene.assembly->indices,
+                      reinterpret_cast<std::uint32_t*>(memory.data() + request.indices_offset));
+  } else {
+    for (std::size_t t = first; t < first + count; ++t) std::ranges::for_each(scene.triangles[t], add);
+  }
+  return request;
 }
 
 tl::expected<void, Error> WorkerSubject::draw_part(const Scene& scene, std::size_t first, std::size_t count,
@@ -85,34 +138,25 @@ tl::expected<void, Error> WorkerSubject::draw_part(const Scene& scene, std::size
     if (!restarted) return tl::unexpected(restarted.error());
     worker_ = std::move(*restarted);
   }
+  const auto request = lay_out(scene, first, count);
+  if (!request) return tl::unexpected(request.error());
   const MaskLayout layout(scene.setting);
-  const std::size_t mask_bytes = layout.words() * sizeof(std::uint64_t) * count;
-  DrawRequest request;
-  request.width = layout.target.width;
-  request.height = layout.target.height;
-  request.samples = layout.samples;
-  request.triangles = count;
-  request.masks_offset = aligned(count * sizeof(Triangle));
-  SharedMemory& memory = worker_->memory();
-  if (auto grown = memory.grow(request.masks_offset + mask_bytes); !grown) return grown;
-  request.memory_bytes = memory.size();
-
-  std::memcpy(memory.data(), &scene.triangles[first], count * sizeof(Triangle));
   const auto drawing = std::chrono::milliseconds(
       static_cast<std::int64_t>(static_cast<double>(layout.sample_count() * count) * kMicrosecondsPerSample / 1000));
-  const auto reply = worker_->draw(request, command_.time_limit + drawing);
+  const auto reply = worker_->draw(*request, command_.time_limit + drawing);
   if (!reply) {
     worker_.reset();
     return tl::unexpected(
         Error{reply.error().kind, fmt::format("drawing triangles {} to {} of {}, the driver {}", first,
-                                              first + count - 1, scene.triangles.size(), reply.error().message)});
+                                              first + count - 1, masks.size(), reply.error().message)});
   }
   if (!reply->status.ok) {
     worker_.reset();  // A driver that refused what it said it could do is not trusted with the next draw.
     return tl::unexpected(Error{reply->status.kind, std::string(reply->status.message.view())});
   }
   driver_seconds_ += reply->driver_seconds;
-  std::memcpy(masks[first].data(), memory.data() + request.masks_offset, mask_bytes);
+  std::memcpy(masks[first].data(), worker_->memory().data() + request->masks_offset,
+              layout.words() * sizeof(std::uint64_t) * count);
   return {};
 }
 

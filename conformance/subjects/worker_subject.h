@@ -20,15 +20,16 @@ class WorkerSubject final : public Subject {
   static tl::expected<std::unique_ptr<Subject>, Error> start(const std::string& name, WorkerCommand command);
 
   const SubjectInfo& info() const override { return info_; }
-  /// The default's reasons, and: culling, assembled primitives, clip-space geometry, sample locations other than the
-  /// standard ones, a mask larger than the driver's largest buffer, a vertex that the driver's viewport transform would
-  /// change.
+  /// The default's reasons, and: sample locations other than the standard ones; a mask, or all masks of an assembly,
+  /// larger than the driver's largest buffer; a vertex that the driver's viewport transform would change.
   std::optional<std::string> refusal(const Scene& scene) const override;
   tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override;
   double driver_seconds() const override { return driver_seconds_; }
 
  private:
   WorkerSubject(const std::string& name, WorkerCommand command, std::unique_ptr<WorkerProcess> worker);
+  /// Lays the vertices of triangles `first` to `first + count - 1` into the worker's memory, and leaves room for masks.
+  tl::expected<DrawRequest, Error> lay_out(const Scene& scene, std::size_t first, std::size_t count);
   tl::expected<void, Error> draw_part(const Scene& scene, std::size_t first, std::size_t count, MaskBatch& masks);
 
   WorkerCommand command_;

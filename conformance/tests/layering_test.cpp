@@ -21,6 +21,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"conformance/casefile", {"conformance/scene"}},
     {"conformance/generators", {"conformance/scene"}},
     {"conformance/oracle", {"conformance/scene"}},
+    {"conformance/models", {"conformance/scene"}},
     {"conformance/compare", {"conformance/scene"}},
     {"conformance/subjects", {"conformance/scene"}},
     {"conformance/report", {"conformance/scene", "conformance/compare"}},

@@ -16,6 +16,9 @@
 namespace edgecase::conformance {
 namespace {
 
+// Half the enclosing viewport, by which window positions are divided on their way here.
+constexpr float kMaxCoordinate = 1024;
+
 void say_own_pid(const char* file) {
   const std::string text = std::to_string(getpid());
   const int descriptor = open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
@@ -30,14 +33,15 @@ class MisbehavingDriver final : public Driver {
     info_.rules = {4, SnapRounding::truncate};
     info_.sample_counts = {1, 2};
     info_.max_target = 64;
-    info_.max_coordinate = 1024;
+    info_.max_coordinate = static_cast<double>(kMaxCoordinate);
   }
 
   const SubjectInfo& info() const override { return info_; }
   std::size_t max_mask_bytes() const override { return 4096; }
-  tl::expected<double, Error> draw(const Setting& setting, std::span<const Triangle> triangles,
+  tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
                                    std::span<std::uint64_t> masks) override {
-    const float what = triangles[0][0].x;
+    const auto first_x = [&](std::size_t triangle) { return primitives.vertices[3 * triangle].x * kMaxCoordinate; };
+    const float what = first_x(0);
     if (what == 900) {
       std::fputs("the driver's own complaint\nin two lines\n", stderr);
       std::abort();
@@ -52,8 +56,8 @@ class MisbehavingDriver final : public Driver {
       for (int line = 0; line < 40'000; ++line) std::puts("chatter that would fill any pipe in a moment");
     }
     const std::size_t words = MaskLayout(setting).words();
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      std::ranges::fill(masks.subspan(i * words, words), std::bit_cast<std::uint32_t>(triangles[i][0].x));
+    for (std::size_t i = 0; i < primitives.triangles; ++i) {
+      std::ranges::fill(masks.subspan(i * words, words), std::bit_cast<std::uint32_t>(first_x(i)));
     }
     return 0.25;
   }

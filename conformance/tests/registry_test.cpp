@@ -48,6 +48,7 @@ TEST(Registry, EveryListedSubjectIsMadeUnderItsName) {
     EXPECT_FALSE(subject.about.empty());
     if (subject.name == "vulkan:DEVICE-OR-ICD") continue;
     const auto made = make_subject(subject.name);
+    if (subject.name == "swiftshader" && !made && made.error().kind == ErrorKind::absent) continue;  // optional
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ((*made)->info().name, subject.name);
     names.push_back(subject.name);

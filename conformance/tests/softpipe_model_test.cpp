@@ -1,5 +1,5 @@
 // The model of softpipe against softpipe: no wrong sample in any family of triangles, and what the model says of it.
-#include "conformance/subjects/softpipe_model.h"
+#include "conformance/models/softpipe_model.h"
 
 #include <bit>
 #include <cmath>

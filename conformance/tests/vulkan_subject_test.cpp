@@ -87,18 +87,6 @@ TEST_F(VulkanSubject, RefusesWhatItCannotDoWithTheReason) {
   EXPECT_EQ(subject_->refusal(scene),
             "triangle 1, vertex 2: (0, 1e-38) does not pass the viewport transform unchanged");
   scene.triangles[1][2] = {0, 0};
-  scene.setting.cull = CullMode::back;
-  EXPECT_EQ(subject_->refusal(scene), "culling");
-  scene.setting.cull = CullMode::none;
-  scene.setting.scissor = Rect{0, 0, 4, 4};
-  EXPECT_EQ(subject_->refusal(scene), "a scissor rectangle");
-  scene.setting.scissor.reset();
-  scene.assembly.emplace();
-  EXPECT_EQ(subject_->refusal(scene), "primitives that the driver would assemble");
-  scene.assembly.reset();
-  scene.clip.emplace();
-  EXPECT_EQ(subject_->refusal(scene), "clip-space geometry");
-  scene.clip.reset();
   scene.setting.sample_locations = {{4, 4}};
   EXPECT_EQ(subject_->refusal(scene), "sample locations other than the standard ones");
   scene.setting = square_setting(8, 16);

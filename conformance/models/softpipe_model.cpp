@@ -1,4 +1,4 @@
-#include "conformance/subjects/softpipe_model.h"
+#include "conformance/models/softpipe_model.h"
 
 #include <algorithm>
 #include <array>

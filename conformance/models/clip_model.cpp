@@ -1,0 +1,249 @@
+#include "conformance/models/clip_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace edgecase::conformance {
+namespace {
+
+// A convex polygon gains at most one vertex per plane. Rounding may bend it: then each inside vertex may gain one.
+constexpr std::size_t kMaxVertices = 64;
+
+struct ClipVertex {
+  ClipPosition at;
+  bool original = true;
+};
+
+struct Polygon {
+  std::array<ClipVertex, kMaxVertices> vertices;
+  std::size_t size = 0;
+
+  bool add(const ClipVertex& vertex) {
+    if (size == kMaxVertices) return false;
+    vertices[size++] = vertex;
+    return true;
+  }
+};
+
+// The signed distance, inside at 0 and above. llvmpipe sums the products of the position and (+-1, 0, 0, 1) from left
+// to right; adding the zeros changes no sum, and so this is the same.
+float distance(const TransformModel& model, float shrink, ClipPlane plane, const ClipPosition& p) {
+  const float x = shrink * p.x;
+  const float y = shrink * p.y;
+  switch (plane) {
+    case ClipPlane::left:
+      return p.w + x;
+    case ClipPlane::right:
+      return p.w - x;
+    case ClipPlane::bottom:
+      return p.w + y;
+    case ClipPlane::top:
+      return p.w - y;
+    case ClipPlane::near:
+      return model.depth == DepthRange::zero_to_w ? p.z : p.w + p.z;
+    case ClipPlane::far:
+      return p.w - p.z;
+  }
+  return 0;
+}
+
+// Bit i: outside planes[i].
+unsigned outcode(const TransformModel& model, float shrink, const ClipPosition& p) {
+  unsigned code = 0;
+  for (std::size_t i = 0; i < model.planes.size(); ++i) {
+    if (distance(model, shrink, model.planes[i], p) < 0) code |= 1U << i;
+  }
+  return code;
+}
+
+float towards(float from, float t, float to) {
+  const float step = t * (to - from);
+  return from + step;
+}
+
+float crosswise(float inside, float d_inside, float outside, float d_outside, float inverse) {
+  const float a = d_outside * inside;
+  const float b = d_inside * outside;
+  return (a - b) * inverse;
+}
+
+ClipPosition crossing(Interpolation how, const ClipPosition& inside, float d_inside, const ClipPosition& outside,
+                      float d_outside) {
+  if (how == Interpolation::crosswise) {
+    const float inverse = 1.0F / (d_outside - d_inside);
+    return {crosswise(inside.x, d_inside, outside.x, d_outside, inverse),
+            crosswise(inside.y, d_inside, outside.y, d_outside, inverse),
+            crosswise(inside.z, d_inside, outside.z, d_outside, inverse),
+            crosswise(inside.w, d_inside, outside.w, d_outside, inverse)};
+  }
+  const bool outside_is_nearer = -d_outside < d_inside;
+  const ClipPosition& near = outside_is_nearer ? outside : inside;
+  const ClipPosition& far = outside_is_nearer ? inside : outside;
+  const float d_near = outside_is_nearer ? d_outside : d_inside;
+  const float d_far = outside_is_nearer ? d_inside : d_outside;
+  const float t = d_near / (d_near - d_far);
+  return {towards(near.x, t, far.x), towards(near.y, t, far.y), towards(near.z, t, far.z), towards(near.w, t, far.w)};
+}
+
+// Cuts off what lies outside of the plane; false if that makes too many vertices.
+bool cut(const TransformModel& model, float shrink, ClipPlane plane, const Polygon& in, Polygon& out) {
+  out.size = 0;
+  for (std::size_t i = 0; i < in.size; ++i) {
+    const ClipVertex& a = in.vertices[i];
+    const ClipVertex& b = in.vertices[(i + 1) % in.size];
+    const float da = distance(model, shrink, plane, a.at);
+    const float db = distance(model, shrink, plane, b.at);
+    const bool a_stays = da >= 0;
+    const bool b_stays = db >= 0;
+    if (a_stays && !out.add(a)) return false;
+    if (a_stays == b_stays) continue;
+    // An edge that comes in to a vertex on the plane itself yields no new vertex in SwiftShader. In llvmpipe it does:
+    // at the same place in clip space, but projected as new vertices are.
+    if (model.interpolation == Interpolation::crosswise && !a_stays && db == 0) continue;
+    const ClipPosition at =
+        a_stays ? crossing(model.interpolation, a.at, da, b.at, db) : crossing(model.interpolation, b.at, db, a.at, da);
+    if (!out.add({at, false})) return false;
+  }
+  return true;
+}
+
+bool within_reach(const ClipTriangle& triangle) {
+  constexpr float kLeast = 0x1p-40F;
+  constexpr float kMost = 0x1p40F;
+  for (const ClipPosition& p : triangle) {
+    for (const float value : {p.x, p.y, p.z, p.w}) {
+      const float magnitude = std::abs(value);
+      if (!(magnitude <= kMost) || (magnitude != 0 && magnitude < kLeast)) return false;
+    }
+  }
+  return true;
+}
+
+class Projection {
+ public:
+  Projection(const TransformModel& model, const Setting& setting, const Viewport& viewport)
+      : model_(model),
+        x_(AxisTransform::of(viewport.x, viewport.width)),
+        y_(AxisTransform::of(viewport.y, viewport.height)),
+        multisampled_(setting.samples() > 1) {}
+
+  std::optional<Position> operator()(const ClipVertex& vertex) const {
+    const MultiplyAdd how = vertex.original ? model_.multiply_add : MultiplyAdd::separate;
+    const float inverse_w = 1.0F / vertex.at.w;
+    const auto x = transformed(model_, x_, how, multisampled_, vertex.at.x, inverse_w);
+    const auto y = transformed(model_, y_, how, multisampled_, vertex.at.y, inverse_w);
+    if (!x || !y) return std::nullopt;
+    return Position{*x, *y};
+  }
+
+ private:
+  const TransformModel& model_;
+  AxisTransform x_;
+  AxisTransform y_;
+  bool multisampled_;
+};
+
+bool within(float max_extent, const Triangle& t) {
+  const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [top, bottom] = std::minmax({t[0].y, t[1].y, t[2].y});
+  return right - left <= max_extent && bottom - top <= max_extent;
+}
+
+// How SwiftShader takes the triangle to be wound. It counts from a pixel's centre, in subpixels; a scale that is a
+// power of two changes no rounding, so that pixels do. Each product and sum is rounded.
+Turn turn_in_binary32(const std::array<Position, 3>& v, const ClipTriangle& triangle) {
+  constexpr float kPixelCentre = 0.5F;
+  const auto x = [&](std::size_t i) { return v[i].x - kPixelCentre; };
+  const auto y = [&](std::size_t i) { return v[i].y - kPixelCentre; };
+  const float p = (y(0) - y(2)) * x(1);
+  const float q = (y(2) - y(1)) * x(0);
+  const float r = (y(1) - y(0)) * x(2);
+  const float area = (p + q) + r;
+  if (area == 0) return Turn::none;
+  bool counter_clockwise = area > 0;
+  for (const ClipPosition& vertex : triangle) counter_clockwise ^= std::signbit(vertex.w);
+  return counter_clockwise ? Turn::counter_clockwise : Turn::clockwise;
+}
+
+// The polygon's vertices on the grid.
+struct Outline {
+  std::array<Position, kMaxVertices> vertices;
+  std::size_t size = 0;
+};
+
+bool append_fan(const TransformModel& model, const Outline& outline, std::vector<Triangle>& out) {
+  const std::size_t before = out.size();
+  for (std::size_t i = 2; i < outline.size; ++i) {
+    const Triangle part{outline.vertices[0], outline.vertices[i - 1], outline.vertices[i]};
+    if (!within(model.max_extent, part)) {
+      out.resize(before);
+      return false;
+    }
+    if (turn_of(part) != Turn::none) out.push_back(part);
+  }
+  return true;
+}
+
+// What is inside all planes; empty if nothing is. Nothing if rounding made too many vertices.
+std::optional<Polygon> clipped(const TransformModel& model, bool multisampled, const ClipTriangle& triangle) {
+  const float shrink = multisampled ? model.multisample_shrink : model.shrink;
+  unsigned any = 0;
+  unsigned all = ~0U;
+  Polygon polygon;
+  for (const ClipPosition& p : triangle) {
+    const unsigned code = outcode(model, shrink, p);
+    any |= code;
+    all &= code;
+    polygon.add({p, true});
+  }
+  if (all != 0) return Polygon{};
+  Polygon next;
+  for (std::size_t i = 0; i < model.planes.size() && polygon.size >= 3; ++i) {
+    if ((any >> i & 1U) == 0) continue;
+    if (!cut(model, shrink, model.planes[i], polygon, next)) return std::nullopt;
+    std::swap(polygon, next);
+  }
+  if (polygon.size < 3) polygon.size = 0;
+  return polygon;
+}
+
+}  // namespace
+
+Turn turn_of(const Triangle& triangle) {
+  const auto d = [](float from, float to) { return static_cast<double>(to) - static_cast<double>(from); };
+  const auto& [a, b, c] = triangle;
+  const double area = d(a.x, b.x) * d(a.y, c.y) - d(a.y, b.y) * d(a.x, c.x);
+  return area > 0 ? Turn::clockwise : area < 0 ? Turn::counter_clockwise : Turn::none;
+}
+
+std::optional<Turn> append_window_triangles(const TransformModel& model, const Setting& setting,
+                                            const Viewport& viewport, const ClipTriangle& triangle,
+                                            std::vector<Triangle>& out) {
+  if (!within_reach(triangle)) return std::nullopt;
+  const auto polygon = clipped(model, setting.samples() > 1, triangle);
+  if (!polygon) return std::nullopt;
+  const Projection project(model, setting, viewport);
+  Outline outline;
+  for (std::size_t i = 0; i < polygon->size; ++i) {
+    const auto at = project(polygon->vertices[i]);
+    if (!at) return std::nullopt;
+    outline.vertices[outline.size++] = *at;
+  }
+  Turn turn = Turn::none;
+  if (outline.size != 0 && model.winding == Winding::binary32_before_clipping) {
+    std::array<Position, 3> unclipped;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = project({triangle[i], true});
+      if (!at) return std::nullopt;
+      unclipped[i] = *at;
+    }
+    turn = turn_in_binary32(unclipped, triangle);
+  }
+  if (!append_fan(model, outline, out)) return std::nullopt;
+  return turn;
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,98 @@
+#include "conformance/models/window_scene.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "conformance/models/clip_model.h"
+
+namespace edgecase::conformance {
+namespace {
+
+std::optional<Turn> append_snapped(const TransformModel& model, const Setting& setting, const Triangle& triangle,
+                                   std::vector<Triangle>& out) {
+  Triangle result;
+  for (std::size_t v = 0; v < 3; ++v) {
+    const auto at = snapped(model, setting, triangle[v]);
+    if (!at) return std::nullopt;
+    result[v] = *at;
+  }
+  out.push_back(result);
+  return Turn::none;
+}
+
+bool culled(const Setting& setting, Turn turn) {
+  if (setting.cull == CullMode::none) return false;
+  const Turn front = setting.front_face == FrontFace::clockwise ? Turn::clockwise : Turn::counter_clockwise;
+  // A triangle without area, which can only be one that covers something after all, faces front.
+  const bool faces_front = turn == front || turn == Turn::none;
+  return faces_front == (setting.cull == CullMode::front);
+}
+
+// One word of a mask: the samples that parts `from` to `to` - 1 add more often than they take them away.
+std::uint64_t outlined(const WindowScene& window, const MaskBatch& parts, std::size_t from, std::size_t to,
+                       std::size_t word) {
+  std::uint64_t result = 0;
+  for (int bit = 0; bit < 64; ++bit) {
+    int times = 0;
+    for (std::size_t part = from; part < to; ++part) {
+      const int inside = static_cast<int>(parts[part][word] >> bit & 1);
+      times += window.takes_away[part] ? -inside : inside;
+    }
+    if (times > 0) result |= std::uint64_t{1} << bit;
+  }
+  return result;
+}
+
+}  // namespace
+
+WindowScene window_scene(const TransformModel& model, const Scene& scene) {
+  const Viewport* viewport = scene.clip ? &scene.clip->viewport : nullptr;
+  const Setting& setting = scene.setting;
+  WindowScene result{.scene = {setting, {model.rules.subpixel_bits, SnapRounding::nearest_even}, {}, {}},
+                     .unpredicted = {},
+                     .takes_away = {},
+                     .region = DrawnRegion(model, setting, viewport)};
+  result.scene.setting.cull = CullMode::none;
+  if (setting.scissor || result.region.reach() != Rect{0, 0, setting.target.width, setting.target.height}) {
+    result.scene.setting.scissor = result.region.reach();
+  }
+  std::vector<Triangle>& out = result.scene.triangles;
+  std::vector<Triangle> parts;
+  const std::size_t count = scene.clip ? scene.clip->triangles.size() : scene.triangles.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    parts.clear();
+    const std::optional<Turn> turn =
+        viewport != nullptr ? append_window_triangles(model, setting, *viewport, scene.clip->triangles[i], parts)
+                            : append_snapped(model, setting, scene.triangles[i], parts);
+    if (!turn) result.unpredicted.push_back(i);
+    for (const Triangle& part : parts) {
+      const bool as_whole = viewport != nullptr && model.winding == Winding::binary32_before_clipping;
+      if (!result.region.meets(part) || culled(setting, as_whole ? *turn : turn_of(part))) continue;
+      out.push_back(part);
+      const Turn adds = *turn == Turn::none ? Turn::clockwise : *turn;
+      result.takes_away.push_back(as_whole && model.fill == Fill::outline && turn_of(part) != adds);
+    }
+    result.first.push_back(out.size());
+  }
+  return result;
+}
+
+void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole) {
+  whole.reset(MaskLayout(window.scene.setting), window.size());
+  std::ranges::fill(whole.data(), 0);
+  for (std::size_t i = 0; i < window.size(); ++i) {
+    const std::size_t from = window.first[i];
+    const std::size_t to = window.first[i + 1];
+    bool some_take_away = false;
+    for (std::size_t part = from; part < to; ++part) {
+      std::ranges::transform(whole[i], parts[part], whole[i].begin(), std::bit_or<>());
+      some_take_away = some_take_away || window.takes_away[part];
+    }
+    for (std::size_t word = 0; some_take_away && word < whole[i].size(); ++word) {
+      if (whole[i][word] != 0) whole[i][word] = outlined(window, parts, from, to, word);
+    }
+    window.region.filter(whole[i]);
+  }
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,36 @@
+// A scene as one driver's transform leaves it: what an exact rasterizer has to cover to predict that driver.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "conformance/models/drawn_region.h"
+#include "conformance/models/transform_model.h"
+#include "conformance/scene/mask.h"
+#include "conformance/scene/scene.h"
+
+namespace edgecase::conformance {
+
+struct WindowScene {
+  /// Triangles on the grid of the model's rules, which are its rules. The setting is that of the scene, but for a
+  /// scissor that a driver moves.
+  Scene scene;
+  /// Triangle i of the scene became triangles first[i] .. first[i + 1] - 1 of this one: none to seven of them.
+  std::vector<std::size_t> first{0};
+  /// The triangles of which the model predicts nothing, in ascending order.
+  std::vector<std::size_t> unpredicted;
+  /// Whether triangle i of `scene` takes samples away from the triangle that it is a part of, rather than adding them.
+  std::vector<bool> takes_away;
+  DrawnRegion region;
+
+  std::size_t size() const { return first.size() - 1; }
+};
+
+/// Clips and projects `scene.clip`, or else snaps `scene.triangles` (which reach the driver unchanged, as through an
+/// enclosing viewport).
+WindowScene window_scene(const TransformModel& model, const Scene& scene);
+
+/// `parts` are the masks of `window.scene`; mask i of `whole` becomes what the driver covers of triangle i.
+void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole);
+
+}  // namespace edgecase::conformance
