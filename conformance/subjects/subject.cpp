@@ -18,6 +18,9 @@ std::optional<std::string> Subject::refusal(const Scene& scene) const {
     return fmt::format("{} samples a pixel", samples);
   }
   if (scene.setting.scissor && !self.scissor) return "a scissor rectangle";
+  if (scene.setting.cull != CullMode::none && !self.cull) return "culling";
+  if (scene.assembly && !self.assembly) return "strips, fans and indices";
+  if (scene.clip && !self.clip) return "clip space";
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     for (std::size_t v = 0; v < 3; ++v) {
       const Position& position = scene.triangles[i][v];

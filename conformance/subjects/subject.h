@@ -27,6 +27,12 @@ struct SubjectInfo {
   int max_target = kMaxTargetExtent;
   /// Whether a scissor rectangle can be set.
   bool scissor = false;
+  /// Whether triangles can be culled by the way they face.
+  bool cull = false;
+  /// Whether it draws an Assembly as such, and numbers the triangles as the scene does.
+  bool assembly = false;
+  /// Whether it draws ClipGeometry: clips, divides by w and transforms to any viewport itself.
+  bool clip = false;
   /// Window coordinates from -max_coordinate to +max_coordinate reach the rasterizer exactly.
   double max_coordinate = 0;
 };
@@ -38,8 +44,8 @@ class Subject {
   virtual const SubjectInfo& info() const = 0;
 
   /// Why this scene lies outside what the subject can do, in one phrase; nothing if it can be drawn. The default judges
-  /// by info(): the target's size, the sample count, and every coordinate against max_coordinate. Positions off the
-  /// subpixel grid are fine.
+  /// by info(): the target's size, the sample count, what else the setting asks for, the kind of geometry, and every
+  /// coordinate against max_coordinate. Positions off the subpixel grid are fine.
   virtual std::optional<std::string> refusal(const Scene& scene) const;
 
   /// Draws every triangle of `scene` on its own into `masks`, which it resizes: mask i holds exactly the samples that
