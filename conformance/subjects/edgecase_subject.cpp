@@ -43,7 +43,8 @@ std::optional<rasterizer::SamplePattern> sample_pattern(const Setting& setting) 
 
 /// One sample in the pixel's centre, on the whole target, and nothing culled.
 bool is_plain(const Setting& setting) {
-  return setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{} && !setting.scissor && setting.cull == CullMode::none;
+  return setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{} && !setting.scissor &&
+         setting.cull == CullMode::none;
 }
 
 /// Whether the setting drops the way that `triangle` faces. That of a degenerate one does not matter.
