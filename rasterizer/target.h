@@ -35,6 +35,9 @@ class Target {
   constexpr std::size_t mask_words(int samples = 1) const {
     return row_words(samples) * static_cast<std::size_t>(height_.value());
   }
+  friend constexpr bool operator==(const Target& a, const Target& b) {
+    return a.width_ == b.width_ && a.height_ == b.height_;
+  }
 
  private:
   constexpr Target(PixelIndex width, PixelIndex height) : width_(width), height_(height) {}

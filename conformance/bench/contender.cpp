@@ -8,7 +8,6 @@
 
 #include "conformance/bench/plain.h"
 #include "conformance/subjects/inexact_subject.h"
-#include "rasterizer/centre_sample.h"
 #include "rasterizer/family/family.h"
 #include "rasterizer/rasterizer.h"
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "conformance/oracle/oracle.h"
-#include "rasterizer/centre_sample.h"
 #include "rasterizer/rasterizer.h"
+#include "rasterizer/scalar.h"
 
 namespace edgecase::conformance {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "rasterizer/centre_sample.h"
+#include "rasterizer/edge.h"
 
 namespace edgecase::conformance {
 namespace {

@@ -46,6 +46,7 @@ std::string meaning_of(const WrongSample& wrong, const std::string& subject) {
 
 std::string reason_of(const Explanation& why) {
   if (why.degenerate) return "no area after snapping: the triangle covers nothing";
+  if (why.culled) return "culled by the way it faces: the triangle covers nothing";
   std::string on_edge;
   for (const EdgeExplanation& edge : why.edges) {
     if (edge.value.starts_with('-')) return fmt::format("outside: beyond the edge v{} -> v{}", edge.from, edge.to);
@@ -55,6 +56,7 @@ std::string reason_of(const Explanation& why) {
     }
     on_edge = fmt::format("inside: on v{} -> v{}, a {} edge", edge.from, edge.to, edge.top ? "top" : "left");
   }
+  if (!why.inside) return "outside: the scissor leaves this pixel out";
   return on_edge.empty() ? "inside: on the inner side of all three edges" : on_edge;
 }
 

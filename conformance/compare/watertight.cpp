@@ -57,6 +57,7 @@ WatertightChecker::WatertightChecker(const Setting& setting, int subpixel_bits)
       subpixel_bits_(subpixel_bits),
       scale_bits_(std::max(subpixel_bits, kSampleGridBits)),
       sample_words_(static_cast<std::size_t>(layout_.samples) * layout_.row_words()),
+      drawn_(layout_.words()),
       inside_(layout_.words()),
       outline_(layout_.words()),
       once_(layout_.words()),
@@ -65,6 +66,16 @@ WatertightChecker::WatertightChecker(const Setting& setting, int subpixel_bits)
     const MutableMaskView row =
         std::span(sample_words_).subspan(static_cast<std::size_t>(sample) * layout_.row_words(), layout_.row_words());
     for (int x = 0; x < layout_.target.width; ++x) cover(row, layout_.bit(x, 0, sample));
+  }
+  const Rect kept = setting.scissor.value_or(Rect{0, 0, setting.target.width, setting.target.height});
+  for (std::int64_t y = 0; y < setting.target.height; ++y) {
+    if (y < kept.y || y >= std::int64_t{kept.y} + kept.height) continue;
+    for (std::int64_t x = 0; x < setting.target.width; ++x) {
+      if (x < kept.x || x >= std::int64_t{kept.x} + kept.width) continue;
+      for (int s = 0; s < layout_.samples; ++s) {
+        cover(drawn_, layout_.bit(static_cast<int>(x), static_cast<int>(y), s));
+      }
+    }
   }
 }
 
@@ -217,8 +228,8 @@ void WatertightChecker::check(std::span<const GridTriangle> mesh, std::span<cons
   };
   for (std::size_t i = 0; i < layout_.words(); ++i) {
     const std::uint64_t samples = sample_bits(layout_, i % layout_.row_words());
-    const std::uint64_t strictly_inside = inside_[i] & ~outline_[i];
-    const std::uint64_t outside = ~(inside_[i] | outline_[i]) & samples;
+    const std::uint64_t strictly_inside = inside_[i] & ~outline_[i] & drawn_[i];
+    const std::uint64_t outside = ~((inside_[i] | outline_[i]) & drawn_[i]) & samples;
     total.samples_inside += count(strictly_inside);
     report(WrongSample::Kind::missing, i, strictly_inside & ~once_[i], total.missing, total.first_missing);
     report(WrongSample::Kind::doubled, i, twice_[i] & ~outside & samples, total.doubled, total.first_doubled);

@@ -36,7 +36,8 @@ struct Watertightness {
 
 /// Checks meshes in one setting. Samples strictly inside a mesh's outline have to be covered exactly once, those
 /// strictly outside never, and those on the outline at most once, whatever the fill rule. Inside is where the outline's
-/// winding number, computed in exact integers, is 1. Holds only memory that is used again from mesh to mesh.
+/// winding number, computed in exact integers, is 1, and the scissor, if there is one, leaves the pixel. Culling is not
+/// regarded: a culled mesh has to be left out. Holds only memory that is used again from mesh to mesh.
 class WatertightChecker {
  public:
   /// `subpixel_bits` of the grid that the meshes are snapped to, 0 to 16.
@@ -64,6 +65,7 @@ class WatertightChecker {
   int scale_bits_;  ///< fraction bits of the grid that holds vertices and sample locations both
   OutlineBuilder builder_;
   std::vector<std::uint64_t> sample_words_;  ///< for each sample, one row with the bits of that sample set
+  std::vector<std::uint64_t> drawn_;         ///< those that the scissor leaves
   std::vector<std::uint64_t> crossings_;     ///< packed, of one sample's rows: see scan_edge
   std::vector<std::uint64_t> inside_;        ///< winding number 1; says nothing where outline_ is set
   std::vector<std::uint64_t> outline_;       ///< exactly on the outline

@@ -84,6 +84,7 @@ struct Outline {
   std::array<Point, 3> vertices;
   std::array<Edge, 3> edges;
   bool degenerate = false;
+  bool clockwise = false;
 
   Outline(const Rules& rules, const Triangle& triangle) {
     const int shift = common_bits(rules) - rules.subpixel_bits;
@@ -93,6 +94,7 @@ struct Outline {
     }
     const Wide area = edge(0, 1).at(vertices[2]);
     degenerate = area == 0;
+    clockwise = area > 0;
     edges = area >= 0 ? std::array{edge(0, 1), edge(1, 2), edge(2, 0)} : std::array{edge(0, 2), edge(2, 1), edge(1, 0)};
   }
 
@@ -136,6 +138,12 @@ bool scissor_holds(const Setting& setting, int x, int y) {
   return x >= r.x && x < std::int64_t{r.x} + r.width && y >= r.y && y < std::int64_t{r.y} + r.height;
 }
 
+// By definition, too: the front is whichever winding the setting calls so.
+bool is_culled(const Setting& setting, const Outline& outline) {
+  const bool front = outline.clockwise == (setting.front_face == FrontFace::clockwise);
+  return setting.cull != CullMode::none && front == (setting.cull == CullMode::front);
+}
+
 }  // namespace
 
 GridPoint snap(const Rules& rules, const Position& position) {
@@ -148,6 +156,7 @@ void cover_by_definition(const Setting& setting, const Rules& rules, const Trian
   std::fill(mask.begin(), mask.end(), 0);
   const MaskLayout layout(setting);
   const Outline outline(rules, triangle);
+  if (is_culled(setting, outline)) return;
   const auto [left, right] = std::minmax({outline.vertices[0].x, outline.vertices[1].x, outline.vertices[2].x});
   const auto [top, bottom] = std::minmax({outline.vertices[0].y, outline.vertices[1].y, outline.vertices[2].y});
   const auto [x_begin, x_end] = touched_pixels(left, right, common_bits(rules), setting.target.width);
@@ -172,11 +181,12 @@ Explanation explain(const Setting& setting, const Rules& rules, const Triangle& 
   result.snapped = outline.snapped;
   result.scale = std::int64_t{1} << common_bits(rules);
   result.degenerate = outline.degenerate;
+  result.culled = !outline.degenerate && is_culled(setting, outline);
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge& edge = outline.edges[i];
     result.edges[i] = {edge.from, edge.to, decimal(edge.at(p)), edge.is_top(), edge.is_left()};
   }
-  result.inside = scissor_holds(setting, x, y) && outline.covers(p);
+  result.inside = !result.culled && scissor_holds(setting, x, y) && outline.covers(p);
   return result;
 }
 

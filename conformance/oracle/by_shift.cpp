@@ -95,6 +95,33 @@ Pixels left_by_scissor(int extent, const std::optional<Rect>& scissor, int Rect:
   return {begin < 0 ? 0 : static_cast<int>(begin), end > extent ? extent : static_cast<int>(end)};
 }
 
+// The sign that the enclosed area of a dropped triangle has: 1 if the setting drops what is clockwise on the screen, -1
+// for counter-clockwise, 0 for neither.
+int dropped_sign(const Setting& setting) {
+  const int front = setting.front_face == FrontFace::clockwise ? 1 : -1;
+  switch (setting.cull) {
+    case CullMode::none:
+      return 0;
+    case CullMode::front:
+      return front;
+    case CullMode::back:
+      return -front;
+  }
+  return 0;
+}
+
+// The sign of the enclosed area, 1 if clockwise on the screen: the sum over the edges of the trapezoids between edge
+// and y axis, added where the edge goes down and taken away where it goes up.
+int area_sign(const std::array<RationalPoint, 3>& points) {
+  Rational area = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RationalPoint& from = points[i];
+    const RationalPoint& to = points[(i + 1) % 3];
+    area += (from.x + to.x) * (to.y - from.y);
+  }
+  return area.sign();
+}
+
 // Those of them whose sample, `offset` into its pixel, lies in [low, high).
 Pixels columns(const Rational& low, const Rational& high, const Rational& offset, const Pixels& within) {
   const auto clamped = [&](const Rational& bound) {
@@ -118,6 +145,7 @@ void cover_by_shift(const Setting& setting, const Rules& rules, const Triangle& 
 
   std::array<RationalPoint, 3> points;
   for (std::size_t i = 0; i < 3; ++i) points[i] = {snapped(rules, triangle[i].x), snapped(rules, triangle[i].y)};
+  if (const int dropped = dropped_sign(setting); dropped != 0 && area_sign(points) == dropped) return;
 
   std::vector<Slope> slopes;
   for (std::size_t i = 0; i < 3; ++i) {

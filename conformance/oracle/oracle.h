@@ -1,10 +1,10 @@
 // The exact answer, twice, by two methods that share no code: neither with each other nor with the rasterizer they
 // judge.
 //
-// Both first snap each vertex to the subpixel grid as the rules say and then decide every sample exactly. Either
-// winding is covered; a triangle of zero area after snapping covers nothing (D3D11.3 functional
-// specification, 15.11.1). Precondition of everything here: coordinates are finite and at most 2^24 px from the origin;
-// subpixel_bits is 0 to 16.
+// Both first snap each vertex to the subpixel grid as the rules say and then decide every sample exactly. A triangle
+// covers nothing if the setting culls the way its snapped vertices face, or if they enclose no area (D3D11.3
+// functional specification, 15.11.1). Precondition of everything here: coordinates are finite and at most 2^24 px from
+// the origin; subpixel_bits is 0 to 16.
 #pragma once
 
 #include "conformance/scene/explanation.h"

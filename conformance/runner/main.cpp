@@ -82,7 +82,6 @@ int dispatch(int argc, char** argv) {
   if (*list) return list_command(data, list_what);
   if (app.got_subcommand("bench")) return bench_command(bench_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
-  if (app.got_subcommand("bench")) return bench_command(bench_options);
   return run_command(data, run_options);
 }
 

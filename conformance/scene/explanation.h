@@ -30,6 +30,7 @@ struct Explanation {
   /// Units per pixel in which the edge functions are computed: fine enough for vertices and sample locations both.
   std::int64_t scale = 256;
   bool degenerate = false;  ///< zero area after snapping: covers nothing
+  bool culled = false;      ///< it has an area, but the setting drops the way it faces
   std::array<EdgeExplanation, 3> edges;
   bool inside = false;
 };

@@ -18,11 +18,11 @@ struct Position {
   friend bool operator==(const Position&, const Position&) = default;
 };
 
-/// Three window positions in the order in which they are drawn. Either winding is drawn: nothing is culled.
+/// Three window positions in the order in which they are drawn. Either winding is drawn unless the setting culls it.
 using Triangle = std::array<Position, 3>;
 
-/// Consecutive triangles `first` .. `first + count - 1` of a scene that cover a region without gap or overlap, all wound
-/// the same way, sharing whole edges with bitwise equal end points.
+/// Consecutive triangles `first` .. `first + count - 1` of a scene that cover a region without gap or overlap, all
+/// wound the same way, sharing whole edges with bitwise equal end points.
 struct Mesh {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -40,8 +40,8 @@ struct ClipPosition {
 
 using ClipTriangle = std::array<ClipPosition, 3>;
 
-/// The viewport transform in Vulkan's terms: x = -1 lies at `x`, +1 at `x + width`, likewise y; a negative height flips.
-/// Pixels; any finite values with a width above 0 and a height other than 0.
+/// The viewport transform in Vulkan's terms: x = -1 lies at `x`, +1 at `x + width`, likewise y; a negative height
+/// flips. Pixels; any finite values with a width above 0 and a height other than 0.
 struct Viewport {
   float x = 0;
   float y = 0;

@@ -41,9 +41,19 @@ std::optional<rasterizer::SamplePattern> sample_pattern(const Setting& setting) 
   return rasterizer::SamplePattern::make(locations);
 }
 
-/// One sample in the pixel's centre, on the whole target.
+/// One sample in the pixel's centre, on the whole target, and nothing culled.
 bool is_plain(const Setting& setting) {
-  return setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{} && !setting.scissor;
+  return setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{} && !setting.scissor &&
+         setting.cull == CullMode::none;
+}
+
+/// Whether the setting drops the way that `triangle` faces. That of a degenerate one does not matter.
+template <class F>
+bool is_culled(const Setting& setting, const rasterizer::FixedTriangle<F>& triangle) {
+  if (setting.cull == CullMode::none) return false;
+  const bool clockwise = rasterizer::doubled_area<F>(triangle) > rasterizer::constant<0>;
+  const bool front = clockwise == (setting.front_face == FrontFace::clockwise);
+  return front == (setting.cull == CullMode::front);
 }
 
 template <class F, class View>
@@ -51,6 +61,7 @@ Failure draw_into(const View& view, const Scene& scene, MaskBatch& masks) {
   rasterizer::FixedTriangle<F> snapped;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
+    if (is_culled<F>(scene.setting, snapped)) continue;
     const auto mask = rasterizer::Mask::over(view.target, masks[i], view.samples.count());
     rasterizer::cover_scalar<F>(snapped, view, [&](int y, int word, std::uint64_t bits) { mask->add(y, word, bits); });
   }
@@ -116,6 +127,8 @@ class EdgecaseSubject : public Subject {
     info_.max_target = rasterizer::kMaxExtent;
     info_.follows_scene_rules = true;
     info_.scissor = true;
+    info_.cull = true;
+    info_.assembly = true;
     info_.max_coordinate = 32768.0 - 1.0 / 256;
   }
 
@@ -130,6 +143,7 @@ class EdgecaseSubject : public Subject {
     if (setting.samples() < 1 || setting.samples() > rasterizer::kMaxSamples) {
       return fmt::format("{} samples a pixel", setting.samples());
     }
+    if (scene.clip) return "clip space";
     if (!sample_pattern(setting)) return "a sample off the sixteenths of a pixel";
     if (scene.rules.rounding != SnapRounding::nearest_even || scene.rules.half_pixel_first) {
       return "snaps to nearest even only";

@@ -187,6 +187,13 @@ Box pixel_box(const std::array<Point, 3>& points, const std::vector<Point>& loca
   return box;
 }
 
+/// Whether a triangle whose doubled area, positive if clockwise on the screen, is not 0 faces the way that is dropped.
+bool is_culled(const Setting& setting, const Wide& area) {
+  if (setting.cull == CullMode::none) return false;
+  const bool faces_front = setting.front_face == FrontFace::clockwise ? area > 0 : area < 0;
+  return setting.cull == CullMode::front ? faces_front : !faces_front;
+}
+
 void draw_triangle(const Scene& scene, const Triangle& triangle, Fault fault, MutableMaskView mask) {
   const MaskLayout layout(scene.setting);
   // One grid for vertices and sample locations: as fine as the finer of the two.
@@ -206,7 +213,7 @@ void draw_triangle(const Scene& scene, const Triangle& triangle, Fault fault, Mu
 
   const Wide area = Wide{points[1].x - points[0].x} * (points[2].y - points[0].y) -
                     Wide{points[2].x - points[0].x} * (points[1].y - points[0].y);
-  if (area == 0 || (area < 0 && fault == Fault::one_winding)) return;
+  if (area == 0 || (area < 0 && fault == Fault::one_winding) || is_culled(scene.setting, area)) return;
   if (area < 0) std::swap(points[1], points[2]);
   const std::array<EdgeFunction, 3> edges{edge_function(points[0], points[1], fault),
                                           edge_function(points[1], points[2], fault),
@@ -238,6 +245,8 @@ class FaultSubject : public Subject {
     std::iota(info_.sample_counts.begin(), info_.sample_counts.end(), 1);
     info_.max_coordinate = 32768.0 - 1.0 / 256;
     info_.scissor = true;
+    info_.cull = true;
+    info_.assembly = true;
   }
 
   const SubjectInfo& info() const override { return info_; }

@@ -68,8 +68,6 @@ tl::expected<std::unique_ptr<Subject>, Error> make_subject(const std::string& na
     subject = make_edgecase_subject("");
   } else if (name.starts_with(kEdgecaseFamily) && name != kEdgecaseFamily) {
     subject = make_edgecase_subject(rest_of(kEdgecaseFamily));
-  } else if (name.starts_with(kInexactFamily)) {
-    subject = make_inexact_subject(rest_of(kInexactFamily));
   } else if (name.starts_with(kFaultFamily)) {
     subject = make_fault_subject(rest_of(kFaultFamily));
   } else if (name.starts_with(kInexactFamily)) {

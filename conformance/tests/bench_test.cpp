@@ -14,7 +14,6 @@
 #include "conformance/bench/plain.h"
 #include "conformance/bench/plot.h"
 #include "conformance/subjects/family_subject.h"
-#include "rasterizer/centre_sample.h"
 #include "rasterizer/scalar.h"
 
 namespace edgecase::conformance {

@@ -73,6 +73,8 @@ TEST(EdgecaseSubject, RefusesWhatItCannotDraw) {
   EXPECT_THAT(refusal([](Scene& s) { s.setting.sample_locations[0].x = 16; }), HasSubstr("off the sixteenths"));
   EXPECT_THAT(refusal([](Scene& s) { s.setting.sample_locations[0].y = -1; }), HasSubstr("off the sixteenths"));
   EXPECT_THAT(refusal([](Scene& s) { s.rules.rounding = SnapRounding::truncate; }), HasSubstr("nearest even"));
+  EXPECT_EQ(refusal([](Scene& s) { s.clip.emplace(); }), "clip space");
+  EXPECT_EQ(refusal([](Scene& s) { s.setting.cull = CullMode::back; }), "(none)");
   EXPECT_EQ(refusal([](Scene& s) { s.rules.subpixel_bits = 17; }), "17 subpixel bits");
   EXPECT_EQ(refusal([](Scene& s) { s.rules.subpixel_bits = -1; }), "-1 subpixel bits");
   EXPECT_THAT(refusal([](Scene& s) { s.triangles[0][2].y = 32768; }), HasSubstr("triangle 0, vertex 2: y = 32768"));

@@ -1,5 +1,4 @@
 // Every member of the family against cover_scalar, bit for bit, and against what it promises its sink.
-#include "rasterizer/centre_sample.h"
 #include "rasterizer/family/family.h"
 
 #include <gmock/gmock.h>

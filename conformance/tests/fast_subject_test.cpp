@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,27 +23,39 @@ std::vector<std::string> variants() {
 
 class FastSubject : public testing::TestWithParam<std::string> {
  protected:
-  /// `count` triangles of each generator, with `bits` subpixel bits.
-  void expect_exact(std::size_t count, int bits, std::size_t oracle_share) const {
-    const auto fast = make_edgecase_subject(GetParam());
-    const auto scalar = make_edgecase_subject("scalar");
-    MaskBatch expected, observed;
+  /// At least `count` triangles of each generator, with `bits` subpixel bits.
+  void expect_exact(std::size_t count, int bits, std::size_t oracle_share) {
     for (const Generator& generator : generators()) {
       Scene scene;
       scene.setting = generator.setting;
       scene.rules.subpixel_bits = bits;
-      for (std::uint64_t index = 0; scene.triangles.size() < count; ++index) append_scene(generator, 5, index, scene);
-      ASSERT_EQ(fast->refusal(scene), std::nullopt);
-      ASSERT_TRUE(fast->draw(scene, observed) && scalar->draw(scene, expected));
-      std::vector<std::uint64_t> mask(MaskLayout(scene.setting).words());
-      for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        ASSERT_TRUE(std::ranges::equal(observed[i], expected[i])) << generator.name << ", triangle " << i;
-        if (i % oracle_share != 0) continue;
-        oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], mask);
-        ASSERT_TRUE(std::ranges::equal(observed[i], mask)) << generator.name << ", triangle " << i;
+      std::uint64_t index = 0;
+      for (std::size_t done = 0; done < count; done += scene.triangles.size()) {
+        constexpr std::size_t kAtOnce = 10'000;
+        scene.triangles.clear();
+        scene.meshes.clear();
+        while (scene.triangles.size() < std::min(count, kAtOnce)) append_scene(generator, 5, index++, scene);
+        ASSERT_NO_FATAL_FAILURE(expect_exact(scene, oracle_share)) << generator.name << ", scenes up to " << index;
       }
     }
   }
+
+ private:
+  void expect_exact(const Scene& scene, std::size_t oracle_share) {
+    ASSERT_EQ(fast_->refusal(scene), std::nullopt);
+    ASSERT_TRUE(fast_->draw(scene, observed_) && scalar_->draw(scene, expected_));
+    std::vector<std::uint64_t> mask(MaskLayout(scene.setting).words());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+      ASSERT_TRUE(std::ranges::equal(observed_[i], expected_[i])) << "triangle " << i;
+      if (i % oracle_share != 0) continue;
+      oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], mask);
+      ASSERT_TRUE(std::ranges::equal(observed_[i], mask)) << "the oracle, triangle " << i;
+    }
+  }
+
+  std::unique_ptr<Subject> fast_ = make_edgecase_subject(GetParam());
+  std::unique_ptr<Subject> scalar_ = make_edgecase_subject("scalar");
+  MaskBatch expected_, observed_;
 };
 
 TEST_P(FastSubject, IsExactOnEveryGenerator) { expect_exact(5'000, 8, 20); }

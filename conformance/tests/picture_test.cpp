@@ -196,6 +196,12 @@ TEST(Caption, SaysWhyASampleIsInsideOrOutside) {
   EXPECT_EQ(reason(1, 3), "inside: on v2 -> v0, a left edge");
   EXPECT_EQ(reason(4, 3), "outside: on v1 -> v2, neither top nor left");
   EXPECT_EQ(reason(7, 7), "outside: beyond the edge v1 -> v2");
+
+  exhibit.explanation = explain(exhibit.snapped[0], exhibit.scene.setting, 2, 2, 0);
+  exhibit.explanation->inside = false;
+  EXPECT_EQ(make_caption(exhibit).reason, "outside: the scissor leaves this pixel out");
+  exhibit.explanation->culled = true;
+  EXPECT_EQ(make_caption(exhibit).reason, "culled by the way it faces: the triangle covers nothing");
 }
 
 TEST(TextPicture, ShowsRowsWithCoordinates) {

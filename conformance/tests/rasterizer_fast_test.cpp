@@ -122,6 +122,26 @@ TEST_P(FastRasterizerTest, ManyTrianglesOnOneTarget) {
   ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
 }
 
+// The binning mistakes of "Depth buffers done quick, part 2": a negative coordinate divided by truncation falls into
+// the first strip, an end taken as included into the next one. Here strips and bands are what triangles are sorted
+// into.
+TEST_P(FastRasterizerTest, TrianglesThatEndOnTheBordersOfStripsAndBands) {
+  const Target target = *Target::make(200, 150);
+  std::mt19937_64 random(6);
+  const auto coordinate = [&] {
+    constexpr std::array kBorders{-64, -33, -32, -16, -1, 0, 1, 16, 32, 64, 96, 128, 150, 160, 192, 200, 224};
+    // At a border, half a pixel from it where the samples are, and a subpixel to either side of both.
+    constexpr std::array kOffsets{-129, -128, -127, -1, 0, 1, 127, 128, 129};
+    return kBorders[random() % kBorders.size()] * 256 + kOffsets[random() % kOffsets.size()];
+  };
+  std::vector<Fixed> triangles(24 * 200);
+  for (Fixed& triangle : triangles) {
+    for (auto& v : triangle) v = vertex(coordinate(), coordinate());
+    if (random() % 2 == 0) triangle[1].x = triangle[0].x, triangle[2].y = triangle[0].y;
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
+}
+
 // Larger than a block, in bands of every kind: wide ones, slivers, edges of every slope.
 TEST_P(FastRasterizerTest, LargeTrianglesInsideTheTarget) {
   const Target target = *Target::make(420, 310);

@@ -1,9 +1,11 @@
-// Sample locations and scissors: our rasterizer, the faults' host and both oracles against each other, and the standard
-// patterns by hand.
+// Sample locations, scissors and culling: our rasterizer, the faults' host and both oracles against each other, and the
+// standard patterns by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "conformance/generators/random.h"
@@ -103,6 +105,8 @@ TEST(Samples, EveryoneAgreesOnStandardAndCustomLocations) {
       scene.setting.sample_locations = kStandard[static_cast<std::size_t>(random.between(0, 4))];
     }
     if (random.one_in(2)) scene.setting.scissor = random_scissor(random);
+    scene.setting.cull = static_cast<CullMode>(random.between(0, 2));
+    scene.setting.front_face = static_cast<FrontFace>(random.between(0, 1));
     scene.triangles = random_triangles(random, scene.rules.subpixel_bits, 100);
     ASSERT_NO_FATAL_FAILURE(judges.expect_agreement(scene, 20)) << "round " << round;
   }
@@ -159,6 +163,67 @@ TEST(Samples, OneSampleOffTheCentreIsThePixelMoved) {
   MaskBatch expected, observed;
   ASSERT_TRUE(ours->draw(centred, expected) && ours->draw(moved, observed));
   for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_TRUE(std::ranges::equal(expected[i], observed[i])) << i;
+}
+
+/// What everyone says of a triangle on a 4x4 target: the number of samples covered.
+int covered_by_all(const Setting& setting, const Triangle& triangle) {
+  Scene scene;
+  scene.setting = setting;
+  scene.triangles = {triangle};
+  Judges judges;
+  judges.expect_agreement(scene, 1);
+  std::vector<std::uint64_t> mask(MaskLayout(setting).words());
+  oracle::cover_by_definition(setting, {}, triangle, mask);
+  int count = 0;
+  for (const std::uint64_t row : mask) count += std::popcount(row);
+  return count;
+}
+
+TEST(Culling, DropsTheSideThatIsNamed) {
+  const Triangle clockwise{{{0, 0}, {4, 0}, {0, 4}}};
+  const Triangle counter_clockwise{{{0, 0}, {0, 4}, {4, 0}}};
+  Setting setting;
+  setting.target = {4, 4};
+  const auto counts = [&](CullMode cull, FrontFace front_face) {
+    setting.cull = cull;
+    setting.front_face = front_face;
+    return std::pair{covered_by_all(setting, clockwise), covered_by_all(setting, counter_clockwise)};
+  };
+  EXPECT_EQ(counts(CullMode::none, FrontFace::clockwise), std::pair(6, 6));
+  EXPECT_EQ(counts(CullMode::none, FrontFace::counter_clockwise), std::pair(6, 6));
+  EXPECT_EQ(counts(CullMode::back, FrontFace::clockwise), std::pair(6, 0));
+  EXPECT_EQ(counts(CullMode::back, FrontFace::counter_clockwise), std::pair(0, 6));
+  EXPECT_EQ(counts(CullMode::front, FrontFace::clockwise), std::pair(0, 6));
+  EXPECT_EQ(counts(CullMode::front, FrontFace::counter_clockwise), std::pair(6, 0));
+}
+
+// Counter-clockwise as given: the third vertex lies 3/16 of a subpixel above and right of the line through the others.
+// Snapping moves that line one subpixel to the right and the third vertex onto the centre of pixel (1, 1): clockwise,
+// with that one sample as its leftmost corner.
+TEST(Culling, TheSnappedVerticesFaceFrontOrBack) {
+  const float s = 1.0f / 256;
+  const Triangle turned{
+      {{0.5f + 0.625f * s, 0.5f}, {2.5f + 0.625f * s, 2.5f}, {1.5f + 0.375f * s, 1.5f - 0.4375f * s}}};
+  Setting setting;
+  setting.target = {4, 4};
+  setting.cull = CullMode::back;
+  EXPECT_EQ(covered_by_all(setting, turned), 1);
+  EXPECT_TRUE(oracle::explain(setting, {}, turned, 1, 1, 0).inside);
+  setting.cull = CullMode::front;
+  EXPECT_EQ(covered_by_all(setting, turned), 0);
+  EXPECT_FALSE(oracle::explain(setting, {}, turned, 1, 1, 0).inside);
+  EXPECT_TRUE(oracle::explain(setting, {}, turned, 1, 1, 0).culled);
+}
+
+TEST(Culling, WhatHasNoAreaIsNotCalledCulled) {
+  Setting setting;
+  setting.target = {4, 4};
+  for (const CullMode cull : {CullMode::none, CullMode::front, CullMode::back}) {
+    setting.cull = cull;
+    const Explanation why = oracle::explain(setting, {}, {{{1, 1}, {2, 2}, {3, 3}}}, 1, 1, 0);
+    EXPECT_TRUE(why.degenerate);
+    EXPECT_FALSE(why.culled);
+  }
 }
 
 TEST(Scissor, ExplanationsHonourIt) {

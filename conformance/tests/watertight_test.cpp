@@ -119,6 +119,22 @@ TEST(Watertight, NamesAHoleADoubleAndAStray) {
   EXPECT_EQ(total.first_unexpected, (WrongSample{Kind::unexpected, 41, 7, 7, 0}));
 }
 
+TEST(Watertight, OutsideTheScissorNothingIsInside) {
+  Setting setting{{8, 8}, {SampleLocation{}}};
+  const MaskBatch whole = draw(setting, kSquare);
+  setting.scissor = Rect{-3, 2, 6, 100};  // columns up to 2, rows from 2
+  MaskBatch masks = draw(setting, kSquare);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    for (std::size_t y = 0; y < 8; ++y) masks[i][y] &= y < 2 ? 0 : 0b111;
+  }
+  const Watertightness cut = check(setting, kSquare, masks);
+  EXPECT_TRUE(cut.watertight());
+  EXPECT_EQ(cut.samples_inside, 2u * 3u);  // columns 1 and 2 of rows 2 to 4
+  const Watertightness uncut = check(setting, kSquare, whole);
+  EXPECT_EQ(uncut.missing, 0u);
+  EXPECT_EQ(uncut.unexpected, 16u - 6u);
+}
+
 TEST(Watertight, SamplesOnTheOutlineMayGoEitherWayButNotTwice) {
   const Setting setting{{8, 8}, {SampleLocation{}}};
   const MaskLayout layout(setting);

@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "rasterizer/centre_sample.h"
+#include "rasterizer/edge.h"
 
 namespace edgecase::rasterizer::family {
 

@@ -75,8 +75,11 @@ void FastRasterizer::cover_each(std::span<const FixedTriangle<Format16_8>> trian
                                 std::span<std::uint64_t> masks) const {
   assert(masks.size() == triangles.size() * target.mask_words());
   const StripLayout layout(target);
-  std::vector<std::uint32_t> scratch(layout.words() * kMaxLanes + layout.stride);
-  kernels_->cover_each(triangles, target.width().value(), layout.words(),
+  // A vector's lanes of triangles at once, as long as their masks stay in the second-level cache.
+  constexpr std::size_t kMostWords = 1 << 16;
+  const std::size_t at_once = layout.words() <= kMostWords / kMaxLanes ? kMaxLanes : 1;
+  std::vector<std::uint32_t> scratch(layout.words() * at_once + layout.stride);
+  kernels_->cover_each(triangles, target.width().value(), at_once, layout.words(),
                        {scratch.data(), layout.stride, layout.count, target.height().value()}, masks.data());
 }
 

@@ -28,10 +28,9 @@ HWY_INLINE LaneVertices load_vertices(const SnappedTriangle* triangles) {
     v.y[i] = hn::Set(d, (*triangles)[i].y.value());
   }
 #else
-  // A vertex is one lane of 64 bits, x in its lower half.
+  // A vertex is one lane of 64 bits, x in its lower half. Read by vector loads only, which may alias anything.
   const hn::Repartition<std::uint64_t, DI32> pairs;
-  std::uint64_t words[3 * kLanes];
-  std::memcpy(words, triangles, sizeof(words));
+  const auto* words = reinterpret_cast<const std::uint64_t*>(triangles);
   hn::Vec<decltype(pairs)> low[3], high[3];
   hn::LoadInterleaved3(pairs, words, low[0], low[1], low[2]);
   hn::LoadInterleaved3(pairs, words + 3 * kLanes / 2, high[0], high[1], high[2]);
@@ -121,14 +120,14 @@ HWY_INLINE void strips_to_rows(const Strips& strips, std::uint64_t last_word, st
   }
 }
 
-/// `scratch`: strips for kLanes triangles, `apart` words apart.
-inline void cover_each(std::span<const SnappedTriangle> triangles, int width, std::size_t apart, const Strips& scratch,
-                       std::uint64_t* masks) {
+/// `scratch`: strips for `at_once` triangles, `apart` words apart.
+inline void cover_each(std::span<const SnappedTriangle> triangles, int width, std::size_t at_once, std::size_t apart,
+                       const Strips& scratch, std::uint64_t* masks) {
   const std::uint64_t last_word = ~std::uint64_t{0} >> (63 - (width - 1) % 64);
   const std::size_t mask_words =
       static_cast<std::size_t>(scratch.count + 1) / 2 * static_cast<std::size_t>(scratch.height);
-  for (std::size_t first = 0; first < triangles.size(); first += kLanes) {
-    const auto group = triangles.subspan(first, std::min(kLanes, triangles.size() - first));
+  for (std::size_t first = 0; first < triangles.size(); first += at_once) {
+    const auto group = triangles.subspan(first, std::min(at_once, triangles.size() - first));
     std::memset(scratch.words, 0, group.size() * apart * sizeof(std::uint32_t));
     draw_list(group, width, apart, scratch);
     Strips own = scratch;

@@ -11,9 +11,9 @@ namespace edgecase::rasterizer {
 
 struct FastRasterizer::Kernels {
   void (*cover_union)(std::span<const FixedTriangle<Format16_8>> triangles, int width, const Strips& strips);
-  /// `scratch` has room for kMaxLanes masks, `apart` words from one to the next.
-  void (*cover_each)(std::span<const FixedTriangle<Format16_8>> triangles, int width, std::size_t apart,
-                     const Strips& scratch, std::uint64_t* masks);
+  /// `scratch` has room for `at_once` masks, `apart` words from one to the next, and a strip behind the last.
+  void (*cover_each)(std::span<const FixedTriangle<Format16_8>> triangles, int width, std::size_t at_once,
+                     std::size_t apart, const Strips& scratch, std::uint64_t* masks);
 };
 
 }  // namespace edgecase::rasterizer

@@ -57,6 +57,8 @@ class StripMask {
       : target_(target), layout_(target), blocks_(layout_.allocated_words() / kMaxLanes) {}
 
   const Target& target() const { return target_; }
+  /// Words from strips().words on that belong to the mask: pixels and what lies between them.
+  std::size_t allocated_words() const { return layout_.allocated_words(); }
 
   void clear() { blocks_.assign(blocks_.size(), Block{}); }
 
