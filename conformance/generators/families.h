@@ -19,5 +19,10 @@ Append ties;
 Append range;
 Append sliver;
 Append tiny;
+Append sample_ties;
+Append floats;
+Append float_ties;
+Append inside;
+Append clip;
 
 }  // namespace edgecase::conformance::families

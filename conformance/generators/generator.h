@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -18,18 +19,25 @@ struct Generator {
   std::string_view about;
   /// Target and samples that the scenes are made for.
   Setting setting;
-  /// Appends one scene: its triangles, and a Mesh for each set of them that is watertight. Vertices lie on `lattice`.
+  /// Appends one scene: its triangles, and a Mesh for each set of them that is watertight. Vertices lie on `lattice`,
+  /// but for the categories `float` (window positions off the grid), `viewport` and `clip` (clip space).
   void (*append)(const Lattice& lattice, Random& random, Scene& scene);
+  /// Only of generators in clip space: what their scenes' ClipGeometry has.
+  std::optional<Viewport> viewport{};
 };
 
-/// All generators, in the order in which they are listed and run.
+/// All generators of window positions, in the order in which they are listed and run.
 std::span<const Generator> generators();
+
+/// All generators in clip space. What a rasterizer covers of their triangles is no matter of the rules alone but of a
+/// model of its clipper and transform (models/window_scene.h).
+std::span<const Generator> clip_generators();
 
 /// The generator of that name, or null.
 const Generator* find_generator(std::string_view name);
 
 /// Appends scene number `index` of `generator` for a rasterizer with `scene.rules.subpixel_bits`, at least 1, to
-/// `scene`, whose setting must be the generator's.
+/// `scene`, whose setting must be the generator's; a generator in clip space gives the scene its viewport.
 void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene);
 
 }  // namespace edgecase::conformance

@@ -2,8 +2,31 @@
 
 #include "conformance/generators/families.h"
 #include "conformance/generators/generator.h"
+#include "conformance/scene/standard_samples.h"
 
 namespace edgecase::conformance {
+namespace {
+
+constexpr std::string_view kSampleTies = "triangles on the lattice of the sample locations, and slivers through them";
+constexpr std::string_view kInside =
+    "triangles in clip space that stay inside this viewport, ties of the snap among them";
+constexpr std::string_view kClipped =
+    "triangles in clip space across one or more planes: w = 1, w > 0 varying, w of either sign";
+
+Setting multisampled(int samples) {
+  Setting setting;
+  const auto locations = standard_sample_locations(samples);
+  setting.sample_locations.assign(locations.begin(), locations.end());
+  return setting;
+}
+
+Setting scissored(const Rect& scissor) {
+  Setting setting;
+  setting.scissor = scissor;
+  return setting;
+}
+
+}  // namespace
 
 std::span<const Generator> generators() {
   static const std::array all{
@@ -43,6 +66,41 @@ std::span<const Generator> generators() {
                 {},
                 families::sliver},
       Generator{"tiny", "tiny", "triangles under a pixel, most of them around a pixel centre", {}, families::tiny},
+      Generator{"samples2", "samples", kSampleTies, multisampled(2), families::sample_ties},
+      Generator{"samples4", "samples", kSampleTies, multisampled(4), families::sample_ties},
+      Generator{"samples8", "samples", kSampleTies, multisampled(8), families::sample_ties},
+      Generator{"samples16", "samples", kSampleTies, multisampled(16), families::sample_ties},
+      Generator{"scissor_inside", "scissor", "random triangles, a scissor inside the target", scissored({5, 7, 19, 13}),
+                families::uniform},
+      Generator{"scissor_across", "scissor", "random triangles, a scissor across two borders of the target",
+                scissored({-6, 10, 20, 40}), families::uniform},
+      Generator{"scissor_pixel", "scissor", "triangles on the half-pixel lattice, a scissor of one pixel",
+                scissored({16, 15, 1, 1}), families::ties},
+      Generator{"scissor_empty", "scissor", "random triangles, a scissor that holds no pixel", scissored({9, 9, 0, 4}),
+                families::uniform},
+      Generator{"floats", "float", "random triangles, all 24 bits of each coordinate in use", {}, families::floats},
+      Generator{"float_ties",
+                "float",
+                "coordinates half way between two grid points, and the least that binary32 can tell beside",
+                {},
+                families::float_ties},
+  };
+  return all;
+}
+
+std::span<const Generator> clip_generators() {
+  static const std::array all{
+      Generator{"viewport_target", "viewport", kInside, {}, families::inside, Viewport{0, 0, 32, 32}},
+      Generator{"viewport_offset", "viewport", kInside, {}, families::inside, Viewport{7, 3, 23, 17}},
+      Generator{"viewport_fractional", "viewport", kInside, {}, families::inside, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
+      Generator{"viewport_larger", "viewport", kInside, {}, families::inside, Viewport{-40, -30, 100, 75}},
+      Generator{"viewport_flipped", "viewport", kInside, {}, families::inside, Viewport{3.3F, 30.1F, 27.3F, -37.7F}},
+      Generator{"clip", "clip", kClipped, {}, families::clip, Viewport{0, 0, 32, 32}},
+      Generator{"clip_fractional", "clip", kClipped, {}, families::clip, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
+      Generator{"clip_flipped", "clip", kClipped, {}, families::clip, Viewport{3.3F, 30.1F, 27.3F, -37.7F}},
+      Generator{"clip_larger", "clip", kClipped, {}, families::clip, Viewport{-40, -30, 100, 75}},
+      Generator{"clip_samples4", "clip", kClipped, multisampled(4), families::clip,
+                Viewport{2.5005F, 1.5015F, 20.25F, 26.75F}},
   };
   return all;
 }
@@ -57,6 +115,7 @@ const Generator* find_generator(std::string_view name) {
 void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene) {
   const Lattice lattice(scene.setting.target, scene.rules.subpixel_bits);
   Random random = Random::stream(seed, generator.name, index);
+  if (generator.viewport && !scene.clip) scene.clip = ClipGeometry{*generator.viewport, {}};
   generator.append(lattice, random, scene);
 }
 

@@ -28,6 +28,12 @@ std::size_t random_face(const Triangulation& mesh, Random& random) {
 
 std::size_t random_edge(Random& random) { return static_cast<std::size_t>(random.between(0, 2)); }
 
+// Arguments are evaluated in an order of the compiler's choice: the edge is drawn first here, and in refinement().
+void flip_random_edge(Triangulation& mesh, Random& random) {
+  const std::size_t edge = random_edge(random);
+  mesh.flip_edge(random_face(mesh, random), edge);
+}
+
 }  // namespace
 
 // Cells of 2 to 16 px whose inner vertices move by less than a quarter of a cell: quadrilaterals stay convex, so either
@@ -74,8 +80,8 @@ void triangulation(const Lattice& lattice, Random& random, Scene& scene) {
   const std::int64_t steps = random.between(2, 40);
   for (std::int64_t i = 0; i < steps; ++i) {
     mesh.split_face(random_face(mesh, random), random);
-    mesh.flip_edge(random_face(mesh, random), random_edge(random));
-    mesh.flip_edge(random_face(mesh, random), random_edge(random));
+    flip_random_edge(mesh, random);
+    flip_random_edge(mesh, random);
   }
   mesh.append_to(scene, lattice, random);
 }
@@ -85,7 +91,10 @@ void triangulation(const Lattice& lattice, Random& random, Scene& scene) {
 void refinement(const Lattice& lattice, Random& random, Scene& scene) {
   Triangulation mesh = quadrilateral(lattice, random);
   const std::int64_t steps = random.between(2, 40);
-  for (std::int64_t i = 0; i < steps; ++i) mesh.split_edge(random_face(mesh, random), random_edge(random));
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const std::size_t edge = random_edge(random);
+    mesh.split_edge(random_face(mesh, random), edge);
+  }
   mesh.append_to(scene, lattice, random);
 }
 

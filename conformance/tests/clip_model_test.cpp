@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "conformance/generators/generator.h"
 #include "conformance/tests/clip_scenes.h"
 
 namespace edgecase::conformance {
@@ -93,6 +94,19 @@ using LongPredicted = Predicted;
 INSTANTIATE_TEST_SUITE_P(LongDrivers, LongPredicted, kSubjects, alphanumeric);
 TEST_P(LongPredicted, InClipSpaceWithOneSample) { expect_every_family(1, 5000, 10'000); }
 TEST_P(LongPredicted, InClipSpaceWithFourSamples) { expect_every_family(4, 2000, 20'000); }
+
+TEST_P(Predicted, EveryGeneratorInClipSpace) {
+  for (const Generator& generator : clip_generators()) {
+    Scene scene;
+    scene.setting = generator.setting;
+    scene.rules = subject_->info().rules;
+    for (std::uint64_t i = 0; i < 2000; ++i) append_scene(generator, 1, i, scene);
+    if (generator.viewport->height < 0 && !subject_->info().flipped_viewport) continue;
+    const Tally tally = compared(*subject_, *model_, scene);
+    EXPECT_EQ(tally.wrong, 0U) << generator.name << ": of " << tally.covered << " samples; " << tally.first;
+    EXPECT_LE(tally.unpredicted * 500, tally.triangles) << generator.name;
+  }
+}
 
 TEST_P(Predicted, CulledInClipSpace) {
   for (const CullMode cull : {CullMode::front, CullMode::back}) {

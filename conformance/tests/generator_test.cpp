@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
 
 #include "conformance/compare/outline.h"
 #include "conformance/oracle/oracle.h"
@@ -37,10 +40,26 @@ std::uint64_t digest(const Scene& scene) {
 TEST(Generators, MakeTheSameTrianglesEverywhere) {
   // Recorded once: a change here means that every reported seed of the past names other triangles.
   const std::map<std::string_view, std::uint64_t> recorded{
-      {"fan", 9754777507021975571u},    {"grid", 6909824844277225037u},        {"triangulation", 10598263590025427068u},
-      {"strip", 10718520412250980881u}, {"refinement", 16490012893571826398u}, {"random", 11013290841486168273u},
-      {"ties", 11294867062831296997u},  {"range", 500351732551055826u},
-      {"sliver", 545889064570146556u},       {"tiny", 8802546076141573589u},
+      {"fan", 9754777507021975571u},
+      {"grid", 6909824844277225037u},
+      {"triangulation", 10598263590025427068u},
+      {"strip", 10718520412250980881u},
+      {"refinement", 16490012893571826398u},
+      {"random", 11013290841486168273u},
+      {"ties", 11294867062831296997u},
+      {"range", 500351732551055826u},
+      {"sliver", 545889064570146556u},
+      {"tiny", 8802546076141573589u},
+      {"samples2", 12659351050891713333u},
+      {"samples4", 6206639676614255157u},
+      {"samples8", 321072529291982613u},
+      {"samples16", 18050617951292152069u},
+      {"scissor_inside", 13150480133311033089u},
+      {"scissor_across", 2582017447674807194u},
+      {"scissor_pixel", 13511447903766523877u},
+      {"scissor_empty", 13872866387816004404u},
+      {"floats", 16097070988458644877u},
+      {"float_ties", 8440445900174063730u},
   };
   for (const Generator& generator : generators()) {
     const std::uint64_t actual = digest(scenes(generator, 1, 0, 200));
@@ -89,12 +108,89 @@ TEST(Generators, MakeWatertightMeshesOnEveryGrid) {
 
 TEST(Generators, PutEveryVertexOnTheGrid) {
   for (const Generator& generator : generators()) {
+    if (generator.category == "float") continue;
     for (const Triangle& triangle : scenes(generator, 4, 0, 200).triangles) {
       for (const Position& p : triangle) {
         EXPECT_EQ(p.x * 256, std::floor(p.x * 256)) << generator.name;
         EXPECT_EQ(p.y * 256, std::floor(p.y * 256)) << generator.name;
       }
     }
+  }
+}
+
+std::uint64_t clip_digest(const Scene& scene) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const ClipTriangle& triangle : scene.clip->triangles) {
+    for (const ClipPosition& p : triangle) {
+      for (const float v : {p.x, p.y, p.z, p.w}) hash = (hash ^ std::bit_cast<std::uint32_t>(v)) * 0x100000001b3;
+    }
+  }
+  return hash;
+}
+
+TEST(ClipGenerators, MakeTheSameTrianglesEverywhere) {
+  const std::map<std::string_view, std::uint64_t> recorded{
+      {"viewport_target", 8392404702350791666u},      {"viewport_offset", 10542471893156065547u},
+      {"viewport_fractional", 17447858661695073601u}, {"viewport_larger", 8278574336295672819u},
+      {"viewport_flipped", 6629143180877235703u},     {"clip", 14185208827670739430u},
+      {"clip_fractional", 4712831387426523879u},      {"clip_flipped", 15947028083121441635u},
+      {"clip_larger", 7954391216793282508u},          {"clip_samples4", 3684515973587697107u},
+  };
+  for (const Generator& generator : clip_generators()) {
+    const std::uint64_t actual = clip_digest(scenes(generator, 1, 0, 200));
+    const auto found = recorded.find(generator.name);
+    EXPECT_TRUE(found != recorded.end() && found->second == actual)
+        << "      {\"" << generator.name << "\", " << actual << "u},";
+    EXPECT_NE(actual, clip_digest(scenes(generator, 2, 0, 200)));
+  }
+}
+
+TEST(ClipGenerators, DrawAnySceneWithoutTheOnesBeforeIt) {
+  for (const Generator& generator : clip_generators()) {
+    const Scene all = scenes(generator, 7, 0, 21);
+    const Scene last = scenes(generator, 7, 20, 1);
+    EXPECT_EQ(all.clip->viewport, *generator.viewport);
+    EXPECT_TRUE(all.triangles.empty());
+    ASSERT_EQ(last.clip->triangles.size(), 1u);
+    EXPECT_EQ(all.clip->triangles.back(), last.clip->triangles.front()) << generator.name;
+  }
+}
+
+TEST(ClipGenerators, StayInsideOrCross) {
+  const auto outside = [](const ClipTriangle& triangle) {
+    return std::ranges::any_of(triangle, [](const ClipPosition& p) {
+      return std::fabs(p.x) > p.w || std::fabs(p.y) > p.w || p.z < 0 || p.z > p.w;
+    });
+  };
+  for (const Generator& generator : clip_generators()) {
+    const Scene scene = scenes(generator, 1, 0, 400);
+    const auto crossing = std::ranges::count_if(scene.clip->triangles, outside);
+    if (generator.category == "viewport") {
+      EXPECT_EQ(crossing, 0) << generator.name;
+    } else {
+      EXPECT_GT(crossing, 250) << generator.name;
+    }
+  }
+}
+
+TEST(Generators, ReachEverySample) {
+  for (const int samples : {2, 4, 8, 16}) {
+    const Scene scene = scenes(*find_generator("samples" + std::to_string(samples)), 5, 0, 300);
+    ASSERT_EQ(scene.setting.samples(), samples);
+    std::vector<int> on_edge(static_cast<std::size_t>(samples));
+    for (const Triangle& t : scene.triangles) {
+      for (int s = 0; s < samples; ++s) {
+        for (int y = 8; y < 24; ++y) {
+          for (int x = 8; x < 24; ++x) {
+            const Explanation e = oracle::explain(scene.setting, scene.rules, t, x, y, s);
+            const bool tie =
+                std::ranges::any_of(e.edges, [](const EdgeExplanation& edge) { return edge.value == "0"; });
+            on_edge[static_cast<std::size_t>(s)] += tie && !e.degenerate ? 1 : 0;
+          }
+        }
+      }
+    }
+    EXPECT_GT(*std::ranges::min_element(on_edge), 5) << samples;
   }
 }
 
