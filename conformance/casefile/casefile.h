@@ -21,7 +21,8 @@ inline constexpr float kMaxCaseCoordinate = 32768;
 /// A larger file is refused before it is read.
 inline constexpr std::size_t kMaxCaseBytes = std::size_t{8} << 20;
 
-/// How many triangles of the scene cover each sample.
+/// How many triangles of the scene cover each sample. Of a scene in clip space there is an expectation only if every
+/// vertex has an exact window position, see scene/window_position.h.
 struct Expectation {
   /// For a sample that the specification leaves open.
   static constexpr std::int8_t kMay = -1;
@@ -56,8 +57,9 @@ tl::expected<Case, Error> load_case(const std::filesystem::path& file, const std
 tl::expected<Case, Error> parse_case(std::string_view text, std::string path, std::string name);
 
 /// The text of a case file that parse_case reads back as the same about, source, scene and expectation, bit for bit.
-/// Needs a scene that a case file can hold: at least one triangle, one sample in the pixel's centre, coordinates in
-/// range, an expectation of the target's size, and UTF-8 in about and source, neither of them empty.
+/// Needs a scene that a case file can hold: at least one triangle, 1 to 16 samples on the sixteenths, coordinates in
+/// range, a scissor of no negative size, no mesh beside culling, an expectation of the target's size, of a clipped
+/// scene none, and UTF-8 in about and source, neither of them empty.
 std::string write_case(const Case& value);
 
 /// Every .json file below `root` in the order of their paths, byte by byte; names that begin with a dot are passed

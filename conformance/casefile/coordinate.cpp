@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <system_error>
 
 #include "conformance/casefile/casefile.h"
 
@@ -82,7 +84,7 @@ std::string not_exact(const Written& number, float nearest) {
                      write_coordinate(number.negative ? -nearest : nearest));
 }
 
-std::string outside() { return fmt::format("is not from {} to {}", -kMaxCaseCoordinate, kMaxCaseCoordinate); }
+std::string outside(float limit) { return fmt::format("is not from {} to {}", -limit, limit); }
 
 /// The digits of |value| in base ten, all of them: a binary32 number has at most 112 significant ones.
 Written all_digits(float value) {
@@ -92,21 +94,21 @@ Written all_digits(float value) {
   return *read_number({buffer.data(), static_cast<std::size_t>(end.ptr - buffer.data())}, false);
 }
 
-tl::expected<float, std::string> from_decimal(const Written& number, std::string_view text) {
+tl::expected<float, std::string> from_decimal(const Written& number, std::string_view text, float limit) {
   // The number lies in [10^(magnitude - 1), 10^magnitude).
   const long magnitude = static_cast<long>(number.digits.size()) + number.exponent;
-  if (magnitude > 6) return tl::unexpected(outside());
   float value = 0;
-  // std::from_chars rounds the text itself to the nearest binary32, once; below its range it leaves `value` alone.
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  if (value > kMaxCaseCoordinate) return tl::unexpected(outside());
+  // std::from_chars rounds the text itself to the nearest binary32, once; beyond its range it leaves `value` alone.
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool too_large = read.ec == std::errc::result_out_of_range && magnitude > 0;
+  if (too_large || value > limit) return tl::unexpected(outside(limit));
   const Written digits = all_digits(value);
   if (digits.digits != number.digits || digits.exponent != number.exponent)
     return tl::unexpected(not_exact(number, value));
   return value;
 }
 
-tl::expected<float, std::string> from_hexadecimal(const Written& number) {
+tl::expected<float, std::string> from_hexadecimal(const Written& number, float limit) {
   // The first 13 digits hold at least 49 significant bits, more than twice the 24 of a binary32 number. A sticky bit
   // below them for the rest therefore neither makes such a number of another one nor changes which one is nearest.
   const std::string_view kept = std::string_view(number.digits).substr(0, 13);
@@ -114,18 +116,16 @@ tl::expected<float, std::string> from_hexadecimal(const Written& number) {
   std::from_chars(kept.data(), kept.data() + kept.size(), significand, 16);
   if (kept.size() < number.digits.size()) significand |= 1;
   const long exponent = number.exponent + 4 * static_cast<long>(number.digits.size() - kept.size());
-  // Exact: 52 bits fit a double, and beyond these bounds on the exponent the value is out of range or less than 2^-148.
+  // Exact: 52 bits fit a double, and beyond these bounds on the exponent the value is out of range or less than 2^-248.
   const double value =
       std::ldexp(static_cast<double>(significand), static_cast<int>(std::clamp(exponent, -300L, 300L)));
-  if (value > kMaxCaseCoordinate) return tl::unexpected(outside());
+  if (value > static_cast<double>(limit)) return tl::unexpected(outside(limit));
   const float rounded = static_cast<float>(value);
   if (static_cast<double>(rounded) != value) return tl::unexpected(not_exact(number, rounded));
   return rounded;
 }
 
-}  // namespace
-
-tl::expected<float, std::string> parse_coordinate(std::string_view text) {
+tl::expected<float, std::string> parse(std::string_view text, float limit) {
   const bool negative = !text.empty() && text[0] == '-';
   std::string_view magnitude = text.substr(negative ? 1 : 0);
   for (const std::string_view word : {"nan", "inf", "infinity"}) {
@@ -139,9 +139,19 @@ tl::expected<float, std::string> parse_coordinate(std::string_view text) {
   if (!number) return tl::unexpected(std::string("is not a decimal or hexadecimal number"));
   number->negative = negative;
   tl::expected<float, std::string> value = 0.0f;
-  if (!number->digits.empty()) value = hexadecimal ? from_hexadecimal(*number) : from_decimal(*number, magnitude);
+  if (!number->digits.empty()) {
+    value = hexadecimal ? from_hexadecimal(*number, limit) : from_decimal(*number, magnitude, limit);
+  }
   if (value && negative) return -*value;
   return value;
+}
+
+}  // namespace
+
+tl::expected<float, std::string> parse_coordinate(std::string_view text) { return parse(text, kMaxCaseCoordinate); }
+
+tl::expected<float, std::string> parse_finite(std::string_view text) {
+  return parse(text, std::numeric_limits<float>::max());
 }
 
 std::string write_coordinate(float value) {

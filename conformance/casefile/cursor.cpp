@@ -71,6 +71,13 @@ tl::expected<float, Error> Cursor::coordinate() const {
   return *value;
 }
 
+tl::expected<float, Error> Cursor::finite() const {
+  if (node_->kind != JsonNode::Kind::string) return fault("is not a string; numbers are written as \"1.5\"");
+  const auto value = parse_finite(node_->text);
+  if (!value) return fault(value.error());
+  return *value;
+}
+
 tl::expected<void, Error> Cursor::array(std::string_view what, std::size_t size) const {
   if (node_->kind != JsonNode::Kind::array || (size != 0 && node_->children.size() != size))
     return fault(fmt::format("is not {}", what));

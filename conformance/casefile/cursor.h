@@ -1,11 +1,13 @@
 // A value of a case file and the way to it, so that every error can name both.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <utility>
 
 #include "conformance/casefile/json_tree.h"
 #include "conformance/scene/error.h"
@@ -33,6 +35,20 @@ class Cursor {
   tl::expected<bool, Error> boolean() const;
   /// A finite binary32 number, as coordinate.h says.
   tl::expected<float, Error> coordinate() const;
+  /// The same, of any size.
+  tl::expected<float, Error> finite() const;
+  /// One of `names`.
+  template <class Choice, std::size_t N>
+  tl::expected<Choice, Error> choice(const std::array<std::pair<std::string_view, Choice>, N>& names) const {
+    const auto name = string();
+    if (!name) return tl::unexpected(name.error());
+    std::string known;
+    for (std::size_t i = 0; i < N; ++i) {
+      if (names[i].first == *name) return names[i].second;
+      known.append(i == 0 ? "" : i + 1 == N ? " or " : ", ").append(names[i].first);
+    }
+    return fault("is not " + known);
+  }
   /// Whether this is an array, of `size` items where that is not 0; `what` says what it should be: `[width, height]`.
   tl::expected<void, Error> array(std::string_view what, std::size_t size = 0) const;
 

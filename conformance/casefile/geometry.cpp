@@ -5,9 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "conformance/casefile/coordinate.h"
+#include "conformance/casefile/names.h"
+#include "conformance/scene/assemble.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -21,15 +24,51 @@ tl::expected<Position, Error> read_position(const Cursor& at) {
   return Position{*x, *y};
 }
 
-tl::expected<Triangle, Error> read_triangle(const Cursor& at) {
-  if (const auto ok = at.array("a triangle of 3 positions", 3); !ok) return tl::unexpected(ok.error());
-  Triangle triangle;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto position = read_position(at[i]);
-    if (!position) return tl::unexpected(position.error());
-    triangle[i] = *position;
+tl::expected<ClipPosition, Error> read_clip_position(const Cursor& at) {
+  if (const auto ok = at.array("a position [x, y, z, w]", 4); !ok) return tl::unexpected(ok.error());
+  std::array<float, 4> values;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto value = at[i].finite();
+    if (!value) return tl::unexpected(value.error());
+    values[i] = *value;
   }
-  return triangle;
+  return ClipPosition{values[0], values[1], values[2], values[3]};
+}
+
+template <class Corners>
+tl::expected<Corners, Error> read_corners(
+    const Cursor& at, std::string_view what,
+    tl::expected<typename Corners::value_type, Error> (*read_corner)(const Cursor&)) {
+  if (const auto ok = at.array(what, 3); !ok) return tl::unexpected(ok.error());
+  Corners corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto corner = read_corner(at[i]);
+    if (!corner) return tl::unexpected(corner.error());
+    corners[i] = *corner;
+  }
+  return corners;
+}
+
+/// At least one triangle, each read by `read_one`.
+template <class Item>
+tl::expected<std::vector<Item>, Error> read_list(const Cursor& at, std::string_view what,
+                                                 tl::expected<Item, Error> (*read_one)(const Cursor&)) {
+  if (const auto ok = at.array(what); !ok) return tl::unexpected(ok.error());
+  if (at.size() == 0) return at.fault("triangles; a scene has at least one");
+  std::vector<Item> items;
+  items.reserve(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto item = read_one(at[i]);
+    if (!item) return tl::unexpected(item.error());
+    items.push_back(*item);
+  }
+  return items;
+}
+
+tl::expected<std::vector<Triangle>, Error> read_plain(const Cursor& at, Topology topology) {
+  auto vertices = read_positions(at, 3);
+  if (!vertices) return tl::unexpected(vertices.error());
+  return assemble({topology, std::move(*vertices), {}});
 }
 
 /// In a mesh as scene.h defines it, no two triangles run along the same edge in the same direction: two that are wound
@@ -76,52 +115,59 @@ tl::expected<std::vector<Position>, Error> read_positions(const Cursor& at, std:
 }
 
 tl::expected<std::vector<Triangle>, Error> read_triangles(const Cursor& at) {
-  if (const auto ok = at.array("an array of triangles"); !ok) return tl::unexpected(ok.error());
-  if (at.size() == 0) return at.fault("triangles; a scene has at least one");
-  std::vector<Triangle> triangles;
-  triangles.reserve(at.size());
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const auto triangle = read_triangle(at[i]);
-    if (!triangle) return tl::unexpected(triangle.error());
-    triangles.push_back(*triangle);
-  }
-  return triangles;
+  return read_list<Triangle>(at, "an array of triangles", [](const Cursor& item) {
+    return read_corners<Triangle>(item, "a triangle of 3 positions", read_position);
+  });
 }
 
-tl::expected<std::vector<Triangle>, Error> read_fan(const Cursor& at) {
-  const auto v = read_positions(at, 3);
-  if (!v) return tl::unexpected(v.error());
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i + 2 < v->size(); ++i) triangles.push_back({v->front(), (*v)[i + 1], (*v)[i + 2]});
-  return triangles;
-}
+tl::expected<std::vector<Triangle>, Error> read_strip(const Cursor& at) { return read_plain(at, Topology::strip); }
+tl::expected<std::vector<Triangle>, Error> read_fan(const Cursor& at) { return read_plain(at, Topology::fan); }
 
-tl::expected<std::vector<Triangle>, Error> read_strip(const Cursor& at) {
-  const auto v = read_positions(at, 3);
-  if (!v) return tl::unexpected(v.error());
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i + 2 < v->size(); ++i) {
-    triangles.push_back({(*v)[i], (*v)[i + 1], (*v)[i + 2]});
-    if (i % 2 == 1) std::swap(triangles.back()[1], triangles.back()[2]);
-  }
-  return triangles;
-}
-
-tl::expected<std::vector<Triangle>, Error> read_indices(const Cursor& at, std::span<const Position> vertices) {
+tl::expected<std::vector<std::uint32_t>, Error> read_indices(const Cursor& at, std::size_t vertices, bool restarts) {
   if (const auto ok = at.array("an array of indices"); !ok) return tl::unexpected(ok.error());
-  if (at.size() == 0 || at.size() % 3 != 0) return at.fault("indices; it takes three for each triangle");
-  std::vector<Triangle> triangles;
-  triangles.reserve(at.size() / 3);
-  for (std::size_t i = 0; i < at.size(); i += 3) {
-    Triangle triangle;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const auto index = at[i + corner].integer(0, static_cast<std::int64_t>(vertices.size()) - 1);
-      if (!index) return tl::unexpected(index.error());
-      triangle[corner] = vertices[static_cast<std::size_t>(*index)];
+  if (at.size() == 0) return at.fault("indices; they make no triangle");
+  std::vector<std::uint32_t> indices;
+  indices.reserve(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const JsonNode& item = at[i].node();
+    if (item.kind == JsonNode::Kind::string && item.text == kRestartName) {
+      if (!restarts) return at[i].fault("takes a topology of strip or fan beside it");
+      indices.push_back(kRestartIndex);
+      continue;
     }
-    triangles.push_back(triangle);
+    const auto index = at[i].integer(0, static_cast<std::int64_t>(vertices) - 1);
+    if (!index) return tl::unexpected(index.error());
+    indices.push_back(static_cast<std::uint32_t>(*index));
   }
+  return indices;
+}
+
+tl::expected<std::vector<Triangle>, Error> read_assembled(const Cursor& at, const Assembly& assembly) {
+  const char* what = assembly.indices.empty() ? "positions" : "indices";
+  if (assembly.topology == Topology::list && at.size() % 3 != 0)
+    return at.fault(fmt::format("{}; it takes three for each triangle", what));
+  auto triangles = assemble(assembly);
+  if (triangles.empty()) return at.fault(fmt::format("{}; they make no triangle", what));
   return triangles;
+}
+
+tl::expected<Viewport, Error> read_viewport(const Cursor& at) {
+  if (const auto ok = at.array("[x, y, width, height]", 4); !ok) return tl::unexpected(ok.error());
+  std::array<float, 4> values;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto value = at[i].coordinate();
+    if (!value) return tl::unexpected(value.error());
+    values[i] = *value;
+  }
+  if (!(values[2] > 0)) return at[2].fault("is not above 0");
+  if (values[3] == 0) return at[3].fault("is 0");
+  return Viewport{values[0], values[1], values[2], values[3]};
+}
+
+tl::expected<std::vector<ClipTriangle>, Error> read_clip_triangles(const Cursor& at) {
+  return read_list<ClipTriangle>(at, "an array of triangles", [](const Cursor& item) {
+    return read_corners<ClipTriangle>(item, "a triangle of 3 positions [x, y, z, w]", read_clip_position);
+  });
 }
 
 tl::expected<std::vector<Mesh>, Error> read_watertight(const Cursor& at, std::span<const Triangle> triangles) {

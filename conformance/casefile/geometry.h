@@ -1,8 +1,9 @@
-// The triangles of a case file, from each of the forms they may be written in.
+// The geometry of a case file, from each of the forms it may be written in.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
-#include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -18,14 +19,22 @@ tl::expected<std::vector<Position>, Error> read_positions(const Cursor& at, std:
 /// [[[x, y], [x, y], [x, y]], ...].
 tl::expected<std::vector<Triangle>, Error> read_triangles(const Cursor& at);
 
-/// Centre, then rim: triangle i is (v0, v[i+1], v[i+2]). A closed fan repeats its first rim vertex at the end.
+/// [[x, y], ...]: the triangles that they make as a strip or a fan, see scene.h.
+tl::expected<std::vector<Triangle>, Error> read_strip(const Cursor& at);
 tl::expected<std::vector<Triangle>, Error> read_fan(const Cursor& at);
 
-/// Triangle i is (v[i], v[i+1], v[i+2]), every odd one with its last two swapped so that all are wound the same way.
-tl::expected<std::vector<Triangle>, Error> read_strip(const Cursor& at);
+/// [a, b, c, ...] of `vertices` positions; where `restarts`, "restart" among them is kRestartIndex.
+tl::expected<std::vector<std::uint32_t>, Error> read_indices(const Cursor& at, std::size_t vertices, bool restarts);
 
-/// [a, b, c, a, b, c, ...] into `vertices`.
-tl::expected<std::vector<Triangle>, Error> read_indices(const Cursor& at, std::span<const Position> vertices);
+/// What `assembly` makes: at least one triangle, and of a list no vertex left over. `at` is where its vertices, or if
+/// it has any its indices, were read.
+tl::expected<std::vector<Triangle>, Error> read_assembled(const Cursor& at, const Assembly& assembly);
+
+/// [x, y, width, height].
+tl::expected<Viewport, Error> read_viewport(const Cursor& at);
+
+/// [[[x, y, z, w], [x, y, z, w], [x, y, z, w]], ...].
+tl::expected<std::vector<ClipTriangle>, Error> read_clip_triangles(const Cursor& at);
 
 /// true: all of the `count` triangles are one mesh; [[first, count], ...]: these are.
 tl::expected<std::vector<Mesh>, Error> read_watertight(const Cursor& at, std::span<const Triangle> triangles);

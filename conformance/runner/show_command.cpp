@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "conformance/compare/picture.h"
 #include "conformance/compare/text_picture.h"
@@ -10,6 +11,7 @@
 #include "conformance/runner/findings.h"
 #include "conformance/runner/snap_probe.h"
 #include "conformance/runner/testcase.h"
+#include "conformance/scene/window_position.h"
 #include "conformance/subjects/registry.h"
 
 namespace edgecase::conformance {
@@ -63,8 +65,15 @@ int show_command(const DataFiles& data, const ShowOptions& options) {
 
   Exhibit exhibit;
   if (options.subject.empty()) {
-    exhibit = exhibit_of(file.scene);
-    exhibit.must = by_the_rules(file.scene);
+    Scene scene = file.scene;
+    auto triangles = exact_window_triangles(scene);
+    if (!triangles) {
+      return fail({ErrorKind::bad_input, fmt::format("{}: what it covers depends on the clipper", file.path)});
+    }
+    scene.triangles = std::move(*triangles);
+    scene.clip.reset();
+    exhibit = exhibit_of(scene);
+    exhibit.must = by_the_rules(scene);
   } else if (auto drawn = add_subject(file, options.subject, exhibit); !drawn) {
     return fail(drawn.error());
   }

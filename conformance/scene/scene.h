@@ -54,6 +54,7 @@ struct Viewport {
 struct ClipGeometry {
   Viewport viewport;
   std::vector<ClipTriangle> triangles;
+  friend bool operator==(const ClipGeometry&, const ClipGeometry&) = default;
 };
 
 enum class Topology { list, strip, fan };
@@ -68,6 +69,7 @@ struct Assembly {
   std::vector<Position> vertices;
   /// Vertex numbers or kRestartIndex; empty draws the vertices in their order.
   std::vector<std::uint32_t> indices;
+  friend bool operator==(const Assembly&, const Assembly&) = default;
 };
 
 /// Plain data. Every position is finite; every mesh range lies inside `triangles`.

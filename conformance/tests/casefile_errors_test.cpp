@@ -105,14 +105,74 @@ TEST(CaseFileErrors, Target) {
 }
 
 TEST(CaseFileErrors, Rules) {
-  EXPECT_EQ(replaced("\"s\",", "\"s\", \"samples\": 3,"), "f.json:3: samples: 3 is not a supported sample count; 1 is");
-  EXPECT_EQ(replaced("\"s\",", "\"s\", \"samples\": \"1\","),
-            "f.json:3: samples: \"1\" is not a supported sample count; 1 is");
   EXPECT_EQ(replaced("\"s\",", "\"s\", \"subpixel_bits\": 17,"),
             "f.json:3: subpixel_bits: 17 is not a whole number from 0 to 16");
   EXPECT_EQ(replaced("\"s\",", "\"s\", \"rounding\": \"up\","),
             "f.json:3: rounding: \"up\" is not nearest_even, half_up, half_away or truncate");
   EXPECT_EQ(replaced("\"s\",", "\"s\", \"rounding\": true,"), "f.json:3: rounding: true is not a string");
+}
+
+TEST(CaseFileErrors, HalfPixelFirst) {
+  const auto fields = [](std::string_view value) { return replaced("\"s\",", "\"s\", " + std::string(value) + ","); };
+  EXPECT_EQ(fields("\"half_pixel_first\": 1"), "f.json:3: half_pixel_first: 1 is neither true nor false");
+  EXPECT_EQ(fields("\"half_pixel_first\": true, \"subpixel_bits\": 0"),
+            "f.json:3: half_pixel_first: true takes at least 1 subpixel bit");
+  EXPECT_EQ(fields("\"half_pixel_first\": false, \"subpixel_bits\": 0"), "no error");
+}
+
+TEST(CaseFileErrors, Samples) {
+  // Without the expectation, which is one of a single sample.
+  const auto fields = [](std::string_view value) {
+    const std::string text = with("\"s\",", "\"s\", " + std::string(value) + ",");
+    return message(text.substr(0, text.find(",\n\"expect\"")) + "}");
+  };
+  for (const char* count : {"3", "0", "-1", "17", "32", "\"1\"", "1.0"}) {
+    EXPECT_EQ(fields(std::string("\"samples\": ") + count),
+              std::string("f.json:3: samples: ") + count + " is not a standard sample count: 1, 2, 4, 8 or 16");
+  }
+  const auto positions = [&](std::string_view value) { return fields("\"sample_positions\": " + std::string(value)); };
+  EXPECT_EQ(positions("[[0, 15]]"), "no error");
+  EXPECT_EQ(positions("8"),
+            "f.json:3: sample_positions: 8 is not an array of positions [x, y] in sixteenths of a pixel");
+  EXPECT_EQ(positions("[]"), "f.json:3: sample_positions: an array of 0 positions; it takes 1 to 16");
+  EXPECT_EQ(positions("[[8]]"),
+            "f.json:3: sample_positions[0]: an array of 1 is not a position [x, y] in sixteenths of a pixel");
+  EXPECT_EQ(positions("[[8, 16]]"), "f.json:3: sample_positions[0][1]: 16 is not a whole number from 0 to 15");
+  EXPECT_EQ(positions("[[8, 8], [-1, 8]]"), "f.json:3: sample_positions[1][0]: -1 is not a whole number from 0 to 15");
+  EXPECT_EQ(positions("[[\"0.5\", 8]]"),
+            "f.json:3: sample_positions[0][0]: \"0.5\" is not a whole number from 0 to 15");
+  std::string many;
+  for (int i = 0; i < 16; ++i) many += "[8, 8], ";
+  EXPECT_EQ(positions("[" + many + "[1, 1]]"),
+            "f.json:3: sample_positions: an array of 17 positions; it takes 1 to 16");
+  EXPECT_EQ(fields("\"sample_positions\": [[1, 1], [2, 2]], \"samples\": 4"),
+            "f.json:3: sample_positions: an array of 2 positions; samples says 4");
+  EXPECT_EQ(fields("\"sample_positions\": [[1, 1], [2, 2]], \"samples\": 1"),
+            "f.json:3: sample_positions: an array of 2 positions; samples says 1");
+  EXPECT_EQ(fields("\"sample_positions\": [[1, 1], [2, 2]], \"samples\": 2"), "no error");
+}
+
+TEST(CaseFileErrors, Scissor) {
+  const auto scissor = [](std::string_view value) {
+    return replaced("\"s\",", "\"s\", \"scissor\": " + std::string(value) + ",");
+  };
+  EXPECT_EQ(scissor("[-2147483648, 2147483647, 0, 2147483647]"), "no error");
+  EXPECT_EQ(scissor("[0, 0, 4]"), "f.json:3: scissor: an array of 3 is not [x, y, width, height]");
+  EXPECT_EQ(scissor("[0, 0, -1, 4]"), "f.json:3: scissor[2]: -1 is not a whole number from 0 to 2147483647");
+  EXPECT_EQ(scissor("[0, 0, 4, -1]"), "f.json:3: scissor[3]: -1 is not a whole number from 0 to 2147483647");
+  EXPECT_EQ(scissor("[2147483648, 0, 4, 4]"),
+            "f.json:3: scissor[0]: 2147483648 is not a whole number from -2147483648 to 2147483647");
+  EXPECT_EQ(scissor("[0, 0.5, 4, 4]"),
+            "f.json:3: scissor[1]: 0.5 is not a whole number from -2147483648 to 2147483647");
+}
+
+TEST(CaseFileErrors, Culling) {
+  const auto fields = [](std::string_view value) { return replaced("\"s\",", "\"s\", " + std::string(value) + ","); };
+  EXPECT_EQ(fields("\"cull\": \"both\""), "f.json:3: cull: \"both\" is not none, front or back");
+  EXPECT_EQ(fields("\"cull\": true"), "f.json:3: cull: true is not a string");
+  EXPECT_EQ(fields("\"front_face\": \"ccw\""), "f.json:3: front_face: \"ccw\" is not clockwise or counter_clockwise");
+  EXPECT_EQ(fields("\"cull\": \"back\", \"watertight\": true"),
+            "f.json:3: watertight: the field takes no culling beside it: culled triangles leave holes");
 }
 
 TEST(CaseFileErrors, Coordinates) {
@@ -134,16 +194,14 @@ TEST(CaseFileErrors, Coordinates) {
 
 TEST(CaseFileErrors, Geometry) {
   EXPECT_EQ(geometry("\"samples\": 1"),
-            "f.json:1: triangles: the field is missing, and so are fan, strip, and vertices with indices");
+            "f.json:1: triangles: the field is missing, and so are fan, strip, vertices and clip");
   const std::string three = R"([["0","0"],["4","0"],["0","4"]])";
   EXPECT_EQ(geometry("\"triangles\": [" + three + "],\n\"fan\": " + three),
-            "f.json:6: fan: the case has triangles already; it takes one of triangles, fan, strip, or vertices with "
-            "indices");
+            "f.json:6: fan: the case has triangles already; it takes one of triangles, fan, strip, vertices and clip");
   EXPECT_EQ(geometry("\"vertices\": " + three),
-            "f.json:5: vertices: the field takes indices, and no triangles, fan or "
-            "strip, beside it");
+            "f.json:5: vertices: the field takes indices, topology or both beside it");
   EXPECT_EQ(geometry("\"strip\": " + three + ", \"vertices\": " + three),
-            "f.json:5: vertices: the field takes indices, and no triangles, fan or strip, beside it");
+            "f.json:5: vertices: the case has strip already; it takes one of triangles, fan, strip, vertices and clip");
   EXPECT_EQ(geometry("\"indices\": [0, 1, 2]"), "f.json:5: indices: the field takes vertices beside it");
   EXPECT_EQ(geometry("\"triangles\": []"), "f.json:5: triangles: an array of 0 triangles; a scene has at least one");
   EXPECT_EQ(geometry("\"triangles\": {}"), "f.json:5: triangles: an object is not an array of triangles");
@@ -161,8 +219,62 @@ TEST(CaseFileErrors, Geometry) {
             "f.json:6: indices[1]: -1 is not a whole number from 0 to 2");
   EXPECT_EQ(geometry(vertices + "\"indices\": [0, 1, 2, 0]"),
             "f.json:6: indices: an array of 4 indices; it takes three for each triangle");
-  EXPECT_EQ(geometry(vertices + "\"indices\": []"),
-            "f.json:6: indices: an array of 0 indices; it takes three for each triangle");
+  EXPECT_EQ(geometry(vertices + "\"indices\": []"), "f.json:6: indices: an array of 0 indices; they make no triangle");
+  EXPECT_EQ(geometry("\"triangles\": [" + three + "],\n\"indices\": [0, 1, 2]"),
+            "f.json:6: indices: the field takes vertices beside it");
+}
+
+TEST(CaseFileErrors, Topology) {
+  const std::string three = R"("vertices": [["0","0"],["4","0"],["0","4"]])";
+  EXPECT_EQ(geometry(three + ",\n\"topology\": \"strap\""), "f.json:6: topology: \"strap\" is not list, strip or fan");
+  EXPECT_EQ(geometry(three + ",\n\"topology\": 1"), "f.json:6: topology: 1 is not a string");
+  EXPECT_EQ(geometry("\"topology\": \"strip\", \"strip\": [[\"0\",\"0\"],[\"4\",\"0\"],[\"0\",\"4\"]]"),
+            "f.json:5: topology: the field takes vertices beside it");
+  const std::string strip = three + ", \"topology\": \"strip\",\n\"indices\": ";
+  EXPECT_EQ(geometry(strip + "[0, 1, 2]"), "no error");
+  EXPECT_EQ(geometry(strip + "[0, 1, \"restart\", 2]"),
+            "f.json:6: indices: an array of 4 indices; they make no triangle");
+  EXPECT_EQ(geometry(strip + "[0, 1, \"reset\"]"), "f.json:6: indices[2]: \"reset\" is not a whole number from 0 to 2");
+  EXPECT_EQ(geometry(strip + "[0, 1, null]"), "f.json:6: indices[2]: null is not a whole number from 0 to 2");
+  EXPECT_EQ(geometry(strip + "[0, 1, 4294967295]"),
+            "f.json:6: indices[2]: 4294967295 is not a whole number from 0 to 2");
+  const std::string list = R"("vertices": [["0","0"],["4","0"],["0","4"],["0","0"]], "topology": "list")";
+  EXPECT_EQ(geometry(list), "f.json:5: vertices: an array of 4 positions; it takes three for each triangle");
+  EXPECT_EQ(geometry(list + ",\n\"indices\": [0, 1]"),
+            "f.json:6: indices: an array of 2 indices; it takes three for each triangle");
+  for (const char* topology : {"", ", \"topology\": \"list\""}) {
+    EXPECT_EQ(geometry(three + topology + ",\n\"indices\": [0, 1, 2, \"restart\", 0, 1]"),
+              "f.json:6: indices[3]: \"restart\" takes a topology of strip or fan beside it");
+  }
+}
+
+TEST(CaseFileErrors, Clip) {
+  const auto clip = [](std::string_view fields) { return geometry("\"clip\": " + std::string(fields)); };
+  const std::string good = R"([[["-1","-1","0","1"],["1","-1","0","1"],["-1","1","0","1"]]])";
+  const auto viewport = [&](std::string_view value) { return clip(good + ",\n\"viewport\": " + std::string(value)); };
+  EXPECT_EQ(viewport("[\"0\", \"0\", \"4\", \"4\"]"), "no error");
+  EXPECT_EQ(viewport("[\"0\", \"0\", \"4\"]"), "f.json:6: viewport: an array of 3 is not [x, y, width, height]");
+  EXPECT_EQ(viewport("[\"0\", \"0\", \"0\", \"4\"]"), "f.json:6: viewport[2]: \"0\" is not above 0");
+  EXPECT_EQ(viewport("[\"0\", \"0\", \"-4\", \"4\"]"), "f.json:6: viewport[2]: \"-4\" is not above 0");
+  EXPECT_EQ(viewport("[\"0\", \"0\", \"4\", \"-0\"]"), "f.json:6: viewport[3]: \"-0\" is 0");
+  EXPECT_EQ(viewport("[\"40000\", \"0\", \"4\", \"4\"]"),
+            "f.json:6: viewport[0]: \"40000\" is not from -32768 to 32768");
+  EXPECT_EQ(geometry(R"("viewport": ["0","0","4","4"], "fan": [["0","0"],["4","0"],["0","4"]])"),
+            "f.json:5: viewport: the field takes clip beside it");
+  EXPECT_EQ(clip("[]"), "f.json:5: clip: an array of 0 triangles; a scene has at least one");
+  EXPECT_EQ(clip("[[[\"0\",\"0\",\"0\",\"1\"]]]"),
+            "f.json:5: clip[0]: an array of 1 is not a triangle of 3 positions [x, y, z, w]");
+  EXPECT_EQ(clip(R"([[["0","0"],["4","0"],["0","4"]]])"),
+            "f.json:5: clip[0][0]: an array of 2 is not a position [x, y, z, w]");
+  EXPECT_EQ(clip(R"([[["0","0","0",1],["4","0","0","1"],["0","4","0","1"]]])"),
+            "f.json:5: clip[0][0][3]: 1 is not a string; numbers are written as \"1.5\"");
+  EXPECT_EQ(clip(R"([[["0","0","0","1e39"],["4","0","0","1"],["0","4","0","1"]]])"),
+            "f.json:5: clip[0][0][3]: \"1e39\" is not from -3.4028235e+38 to 3.4028235e+38");
+  EXPECT_EQ(clip(good + ", \"watertight\": true"),
+            "f.json:5: watertight: the field takes window coordinates; the case has clip");
+  EXPECT_EQ(clip(R"([[["-1","-1","0","1"],["2","-1","0","1"],["-1","1","0","1"]]])"),
+            "f.json:6: expect: clip[0][1] has no exact window position (inside the view volume, w a power of two, no "
+            "rounding), and without that nothing can be expected");
 }
 
 TEST(CaseFileErrors, Watertight) {
@@ -190,6 +302,22 @@ TEST(CaseFileErrors, Expect) {
   EXPECT_EQ(replaced("\"###.\"", "\"##2.\""),
             "f.json:7: expect[1]: \"##2.\" asks for 2 triangles in column 2; the scene has 1");
   EXPECT_EQ(replaced("\"###.\"", "1"), "f.json:7: expect[1]: 1 is not a string");
+}
+
+TEST(CaseFileErrors, ExpectOfSamples) {
+  const auto expect = [](std::string_view value) {
+    std::string text = with("[\"####\", \"###.\"]", value);
+    text.insert(text.find("\"source\""), "\"samples\": 2, ");
+    return message(text);
+  };
+  EXPECT_EQ(expect("[[\"####\", \"###.\"], [\"##..\", \"....\"]]"), "no error");
+  EXPECT_EQ(expect("\"####\""), "f.json:7: expect: \"####\" is not an array with the rows of each sample");
+  EXPECT_EQ(expect("[[\"####\", \"###.\"]]"), "f.json:7: expect: the rows of 1 samples; the case has 2");
+  EXPECT_EQ(expect("[\"####\", \"###.\"]"),
+            "f.json:7: expect[0]: \"####\" is not an array of strings, one for each row of the target");
+  EXPECT_EQ(expect("[[\"####\", \"###.\"], [\"##..\"]]"), "f.json:7: expect[1]: 1 rows; the target is 2 high");
+  EXPECT_EQ(expect("[[\"####\", \"###.\"], [\"##..\", \"###\"]]"),
+            "f.json:7: expect[1][1]: \"###\" has 3 characters; the target is 4 wide");
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "conformance/casefile/casefile.h"
+#include "conformance/scene/assemble.h"
+#include "conformance/scene/standard_samples.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -38,6 +40,64 @@ std::string any_sentence() {
   return text;
 }
 
+Setting any_setting(const Extent& target) {
+  Setting setting;
+  setting.target = target;
+  if (*rc::gen::arbitrary<bool>()) {
+    const auto standard = standard_sample_locations(1 << *rc::gen::inRange(0, 5));
+    setting.sample_locations.assign(standard.begin(), standard.end());
+  } else {
+    setting.sample_locations.resize(*rc::gen::inRange<std::size_t>(1, 17));
+    for (SampleLocation& at : setting.sample_locations) at = {*rc::gen::inRange(0, 16), *rc::gen::inRange(0, 16)};
+  }
+  if (*rc::gen::arbitrary<bool>()) {
+    const auto size = rc::gen::map(rc::gen::arbitrary<int>(), [](int value) { return value & 0x7fffffff; });
+    setting.scissor = Rect{*rc::gen::arbitrary<int>(), *rc::gen::arbitrary<int>(), *size, *size};
+  }
+  setting.cull = static_cast<CullMode>(*rc::gen::inRange(0, 3));
+  setting.front_face = static_cast<FrontFace>(*rc::gen::inRange(0, 2));
+  return setting;
+}
+
+/// Triangles, or an assembly with them, or clip space.
+void add_geometry(Scene& scene) {
+  const auto count = *rc::gen::inRange<std::size_t>(1, 12);
+  const auto coordinate = any_coordinate();
+  const int kind = *rc::gen::inRange(0, 3);
+  if (kind == 0) {
+    for (std::size_t i = 0; i < count; ++i) {
+      auto& triangle = scene.triangles.emplace_back();
+      for (auto& position : triangle) position = {*coordinate, *coordinate};
+    }
+  } else if (kind == 1) {
+    Assembly& assembly = scene.assembly.emplace();
+    assembly.topology = static_cast<Topology>(*rc::gen::inRange(0, 3));
+    assembly.vertices.resize(count * 3);
+    for (auto& position : assembly.vertices) position = {*coordinate, *coordinate};
+    if (*rc::gen::arbitrary<bool>()) {
+      const bool restarts = assembly.topology != Topology::list;
+      assembly.indices = {0, 1, 2};
+      if (restarts) assembly.indices.push_back(kRestartIndex);
+      for (std::size_t i = 0; i < count * 3; ++i)
+        assembly.indices.push_back(static_cast<std::uint32_t>(*rc::gen::inRange<std::size_t>(0, count * 3)));
+    }
+    scene.triangles = assemble(assembly);
+  } else {
+    // The reader wants a width above 0 and a height other than 0.
+    const auto size = rc::gen::suchThat(coordinate, [](float value) { return value != 0; });
+    ClipGeometry& clip = scene.clip.emplace();
+    clip.viewport = {*coordinate, *coordinate, std::fabs(*size), *size};
+    const auto finite = rc::gen::map(rc::gen::arbitrary<std::uint32_t>(), [](std::uint32_t value) {
+      const float number = std::bit_cast<float>(value);
+      return std::isfinite(number) ? number : 1.0f;
+    });
+    clip.triangles.resize(count);
+    for (auto& triangle : clip.triangles) {
+      for (auto& position : triangle) position = {*finite, *finite, *finite, *finite};
+    }
+  }
+}
+
 Case any_case() {
   Case made;
   made.about = any_sentence();
@@ -47,19 +107,19 @@ Case any_case() {
   made.scene.setting.target = {width, height};
   made.scene.rules.subpixel_bits = *rc::gen::inRange(0, 17);
   made.scene.rules.rounding = static_cast<SnapRounding>(*rc::gen::inRange(0, 4));
-  const auto triangles = *rc::gen::inRange<std::size_t>(1, 12);
-  for (std::size_t i = 0; i < triangles; ++i) {
-    auto& triangle = made.scene.triangles.emplace_back();
-    for (auto& position : triangle) position = {*any_coordinate(), *any_coordinate()};
-  }
+  made.scene.rules.half_pixel_first = made.scene.rules.subpixel_bits > 0 && *rc::gen::arbitrary<bool>();
+  made.scene.setting = any_setting(made.scene.setting.target);
+  add_geometry(made.scene);
+  if (made.scene.clip) return made;
+  const std::size_t triangles = made.scene.triangles.size();
   // One triangle is a mesh whatever its shape.
-  for (std::size_t i = 0; i < triangles; ++i) {
+  for (std::size_t i = 0; i < triangles && made.scene.setting.cull == CullMode::none; ++i) {
     if (*rc::gen::arbitrary<bool>()) made.scene.meshes.push_back({i, 1});
   }
   if (*rc::gen::arbitrary<bool>()) {
     auto& counts = made.expect.emplace().counts;
     const int most = static_cast<int>(std::min<std::size_t>(triangles, 9));
-    for (int i = 0; i < width * height; ++i)
+    for (int i = 0; i < width * height * made.scene.setting.samples(); ++i)
       counts.push_back(static_cast<std::int8_t>(*rc::gen::inRange(int{Expectation::kMay}, most + 1)));
   }
   return made;
@@ -76,6 +136,9 @@ RC_GTEST_PROP(CaseFileProperty, WhatIsWrittenReadsBackBitForBit, ()) {
   RC_ASSERT(read->scene.rules == made.scene.rules);
   RC_ASSERT(read->scene.meshes == made.scene.meshes);
   RC_ASSERT(read->expect == made.expect);
+  // Equal bits are seen to below, by equal text, where == would take -0 for 0.
+  RC_ASSERT(read->scene.assembly == made.scene.assembly);
+  RC_ASSERT(read->scene.clip == made.scene.clip);
   RC_ASSERT(read->scene.triangles.size() == made.scene.triangles.size());
   for (std::size_t i = 0; i < made.scene.triangles.size(); ++i) {
     using Bits = std::array<std::uint32_t, 6>;
@@ -92,7 +155,8 @@ RC_GTEST_PROP(CaseFileProperty, DamagedTextIsReadOrReportedInOneLine, ()) {
     const auto count = *rc::gen::inRange<std::size_t>(0, 12);
     const auto inserted =
         *rc::gen::oneOf(rc::gen::elementOf(std::vector<std::string>{"", "\"", "[", "]", "{", "}", ",", "\n", "/*", "-",
-                                                                    "1e9", "null", "\"fan\": ", "\\u0000", "0x"}),
+                                                                    "1e9", "null", "\"fan\": ", "\\u0000", "0x",
+                                                                    "\"restart\"", "\"clip\": ", "\"samples\": 2,"}),
                         rc::gen::container<std::string>(rc::gen::arbitrary<char>()));
     text.replace(at, count, inserted);
     if (text.empty()) text = " ";

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "conformance/scene/standard_samples.h"
+
 namespace edgecase::conformance {
 namespace {
 
@@ -58,7 +60,7 @@ TEST(CaseFile, AFanIsDrawnRoundItsFirstVertex) {
 
 TEST(CaseFile, AStripKeepsItsWinding) {
   const Case read = parsed(with(R"("strip": [["0","0"], ["4","0"], ["4","4"], ["0","4"], ["-1","2"]])"));
-  EXPECT_EQ(read.scene.triangles, (std::vector<Triangle>{{kA, kB, kC}, {kB, kD, kC}, {kC, kD, kE}}));
+  EXPECT_EQ(read.scene.triangles, (std::vector<Triangle>{{kA, kB, kC}, {kC, kB, kD}, {kC, kD, kE}}));
 }
 
 TEST(CaseFile, IndicesPickVertices) {
@@ -66,6 +68,70 @@ TEST(CaseFile, IndicesPickVertices) {
     "vertices": [["0","0"], ["4","0"], ["4","4"], ["0","4"]])"));
   EXPECT_EQ(read.scene.triangles, (std::vector<Triangle>{{kA, kB, kC}, {kC, kD, kA}}));
   EXPECT_EQ(read.scene.meshes, std::vector{(Mesh{0, 2})});
+}
+
+TEST(CaseFile, ATopologyIsHandedOver) {
+  const std::string vertices = R"("vertices": [["0","0"], ["4","0"], ["4","4"], ["0","4"], ["-1","2"]], "topology": )";
+  const std::vector<Position> all{kA, kB, kC, kD, kE};
+  const Scene strip = parsed(with(vertices + "\"strip\"")).scene;
+  EXPECT_EQ(strip.triangles, (std::vector<Triangle>{{kA, kB, kC}, {kC, kB, kD}, {kC, kD, kE}}));
+  EXPECT_EQ(strip.assembly, (Assembly{Topology::strip, all, {}}));
+  const Scene fan =
+      parsed(with(vertices + "\"fan\", \"indices\": [0, 1, 2, 3, \"restart\", 1, 2, \"restart\", 4, 3, 2]")).scene;
+  EXPECT_EQ(fan.triangles, (std::vector<Triangle>{{kA, kB, kC}, {kA, kC, kD}, {kE, kD, kC}}));
+  EXPECT_EQ(fan.assembly, (Assembly{Topology::fan, all, {0, 1, 2, 3, kRestartIndex, 1, 2, kRestartIndex, 4, 3, 2}}));
+  const Scene list = parsed(with(vertices + "\"list\", \"indices\": [4, 3, 2]")).scene;
+  EXPECT_EQ(list.triangles, (std::vector<Triangle>{{kE, kD, kC}}));
+  EXPECT_EQ(list.assembly, (Assembly{Topology::list, all, {4, 3, 2}}));
+}
+
+TEST(CaseFile, ARestartBeginsAStripAnew) {
+  // The triangle after the restart is the first of its strip, and so not turned.
+  const Case read = parsed(with(R"("vertices": [["0","0"], ["4","0"], ["4","4"], ["0","4"], ["-1","2"]],
+    "topology": "strip", "indices": ["restart", 0, 1, 2, "restart", "restart", 2, 3, 4, "restart"])"));
+  EXPECT_EQ(read.scene.triangles, (std::vector<Triangle>{{kA, kB, kC}, {kC, kD, kE}}));
+}
+
+TEST(CaseFile, WithoutATopologyNothingIsHandedOver) {
+  for (const char* geometry :
+       {R"("fan": [["0","0"], ["4","0"], ["4","4"]])", R"("strip": [["0","0"], ["4","0"], ["4","4"]])",
+        R"("vertices": [["0","0"], ["4","0"], ["4","4"]], "indices": [0, 1, 2])"}) {
+    EXPECT_FALSE(parsed(with(geometry)).scene.assembly) << geometry;
+  }
+}
+
+TEST(CaseFile, ReadsTheWholeSetting) {
+  const Case read = parsed(with(R"("triangles": [[["0","0"], ["4","0"], ["4","4"]]], "samples": 8,
+    "scissor": [-1, 2, 3, 0], "cull": "front", "front_face": "counter_clockwise", "half_pixel_first": true)"));
+  EXPECT_EQ(read.scene.setting.samples(), 8);
+  EXPECT_TRUE(has_standard_samples(read.scene.setting));
+  EXPECT_EQ(read.scene.setting.scissor, (Rect{-1, 2, 3, 0}));
+  EXPECT_EQ(read.scene.setting.cull, CullMode::front);
+  EXPECT_EQ(read.scene.setting.front_face, FrontFace::counter_clockwise);
+  EXPECT_TRUE(read.scene.rules.half_pixel_first);
+  const Case own = parsed(
+      with(R"("triangles": [[["0","0"], ["4","0"], ["4","4"]]], "sample_positions": [[0, 15], [3, 4], [8, 8]])"));
+  EXPECT_EQ(own.scene.setting.sample_locations, (std::vector<SampleLocation>{{0, 15}, {3, 4}, {8, 8}}));
+}
+
+TEST(CaseFile, ExpectHasTheRowsOfEachSample) {
+  const Case read = parsed(R"({"about": "a", "source": "s", "target": [2, 2], "samples": 2,
+    "triangles": [[["0","0"], ["4","0"], ["4","4"]]], "expect": [["#.", ".?"], ["..", "##"]]})");
+  const std::int8_t may = Expectation::kMay;
+  EXPECT_EQ(read.expect->counts, (std::vector<std::int8_t>{1, 0, 0, 0, 0, 1, may, 1}));
+}
+
+TEST(CaseFile, ClipSpaceHasAViewport) {
+  const std::string clip =
+      R"("clip": [[["-1","-1","0","1"], ["1","-1","0.5","1"], ["-0x1p+100","0x1p+120","-1","-0x1p-149"]]])";
+  const Scene whole = parsed(with(clip)).scene;
+  ASSERT_TRUE(whole.clip);
+  EXPECT_TRUE(whole.triangles.empty());
+  EXPECT_EQ(whole.clip->viewport, (Viewport{0, 0, 4, 4}));
+  EXPECT_EQ(whole.clip->triangles,
+            (std::vector<ClipTriangle>{{{{-1, -1, 0, 1}, {1, -1, 0.5f, 1}, {-0x1p100f, 0x1p120f, -1, -0x1p-149f}}}}));
+  const Scene flipped = parsed(with(clip + R"(, "viewport": ["0.5","4","2","-4"])")).scene;
+  EXPECT_EQ(flipped.clip->viewport, (Viewport{0.5f, 4, 2, -4}));
 }
 
 TEST(CaseFile, WatertightMayNameRanges) {
@@ -104,6 +170,60 @@ TEST(CaseFile, WritesAsAPersonWould) {
   "expect": [
     ".#2?",
     "...."
+  ]
+}
+)");
+}
+
+TEST(CaseFile, WritesSettingsAndOtherGeometry) {
+  Case made;
+  made.about = "a";
+  made.source = "s";
+  made.scene.setting.target = {2, 1};
+  made.scene.setting.sample_locations = {{12, 12}, {4, 4}};
+  made.scene.setting.scissor = Rect{-1, 0, 2, 3};
+  made.scene.setting.cull = CullMode::back;
+  made.scene.setting.front_face = FrontFace::counter_clockwise;
+  made.scene.rules.half_pixel_first = true;
+  made.scene.assembly = Assembly{Topology::strip, {kA, kB, kC}, {0, 1, 2, kRestartIndex}};
+  made.scene.triangles = {{kA, kB, kC}};
+  made.expect = Expectation{{0, 1, Expectation::kMay, 0}};
+  EXPECT_EQ(write_case(made), R"({
+  "about": "a",
+  "source": "s",
+  "target": [2, 1],
+  "samples": 2,
+  "scissor": [-1, 0, 2, 3],
+  "cull": "back",
+  "front_face": "counter_clockwise",
+  "half_pixel_first": true,
+  "topology": "strip",
+  "vertices": [
+    ["0", "0"],
+    ["4", "0"],
+    ["4", "4"]
+  ],
+  "indices": [0, 1, 2, "restart"],
+  "expect": [
+    [".?"],
+    ["#."]
+  ]
+}
+)");
+  made.scene.setting = Setting{{2, 1}, {{12, 12}, {4, 5}}};
+  made.scene.rules = {};
+  made.scene.assembly.reset();
+  made.scene.triangles.clear();
+  made.scene.clip = {{0.5f, 0, 2, -1}, {{{{0, 0, 0, 1}, {1, 0, 0.5f, 0x1p-30f}, {0, -2, 0, 2}}}}};
+  made.expect.reset();
+  EXPECT_EQ(write_case(made), R"({
+  "about": "a",
+  "source": "s",
+  "target": [2, 1],
+  "sample_positions": [[12, 12], [4, 5]],
+  "viewport": ["0.5", "0", "2", "-1"],
+  "clip": [
+    [["0", "0", "0", "1"], ["1", "0", "0.5", "0x1p-30"], ["0", "-2", "0", "2"]]
   ]
 }
 )");

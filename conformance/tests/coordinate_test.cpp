@@ -88,6 +88,19 @@ TEST(Coordinate, RefusesWhatIsOutOfRange) {
     expect_fault(text, fault);
 }
 
+TEST(Coordinate, FiniteNumbersMayBeOfAnySize) {
+  EXPECT_EQ(parse_finite("32769"), 32769.0f);
+  EXPECT_EQ(parse_finite("-0x1p+127"), -0x1p127f);
+  EXPECT_EQ(parse_finite("0x1.fffffep+127"), std::numeric_limits<float>::max());
+  EXPECT_EQ(parse_finite("0x1p-149"), 0x1p-149f);
+  const std::string range = "is not from -3.4028235e+38 to 3.4028235e+38";
+  for (const char* beyond : {"0x1p+128", "0x1.ffffffp+127", "1e39", "4e38", "-1e999999999999", "0x1p+99999999"}) {
+    EXPECT_EQ(parse_finite(beyond).error(), range) << beyond;
+  }
+  EXPECT_EQ(parse_finite("1e-60").error(), "is not exact in binary32; the nearest is \"0\"");
+  EXPECT_EQ(parse_finite("inf").error(), "is not finite");
+}
+
 TEST(Coordinate, RefusesWhatIsNotANumber) {
   for (const auto text : {"",    "-",    "+1",    " 1",  "1 ",    "1.5.",   "1,5", "0x",  "0x.",   "0xg",  "1e",
                           "1e+", "0x1p", "0x1p-", "--1", "1e1.5", "0x1e5p", "1f",  "one", "-0x-1", "0x0x1"})
