@@ -109,6 +109,9 @@ const Generator* find_generator(std::string_view name) {
   for (const Generator& generator : generators()) {
     if (generator.name == name) return &generator;
   }
+  for (const Generator& generator : clip_generators()) {
+    if (generator.name == name) return &generator;
+  }
   return nullptr;
 }
 

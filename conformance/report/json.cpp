@@ -35,6 +35,7 @@ Json to_value(const Result& result) {
           {"unexpected", result.unexpected},
           {"doubled", result.doubled},
           {"known_triangles", result.known_triangles},
+          {"unpredicted", result.unpredicted},
           {"first", to_value(result.first)},
           {"reason", text_or_null(result.reason)},
           {"seconds", result.seconds},

@@ -60,6 +60,7 @@ struct Result {
   std::uint64_t unexpected = 0;
   std::uint64_t doubled = 0;
   std::uint64_t known_triangles = 0;  ///< triangles that are wrong as a known deviation says
+  std::uint64_t unpredicted = 0;      ///< triangles not compared, because no model says what the subject has to cover
   std::optional<FirstWrong> first;
   /// Why it failed or was skipped, or the cause of the known deviation; empty if it passed.
   std::string reason;

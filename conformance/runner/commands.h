@@ -27,7 +27,7 @@ struct RunOptions {
   std::vector<std::string> cases;
   std::vector<std::string> subjects;
   std::vector<std::string> generators;
-  std::uint64_t count = 100'000;
+  std::uint64_t count = 50'000;
   std::uint64_t seed = 1;
   std::string json;
   std::string junit;

@@ -30,7 +30,7 @@ std::string plain(std::string name) {
 }
 
 Exhibit exhibit(const Finding& finding, const RunResult& run, const RunPlan& plan, const std::string& command) {
-  const Scene& scene = finding.scene;
+  const Scene& scene = finding.window;
   const Triangle& wrong = scene.triangles[finding.wrong.triangle];
   Exhibit result = exhibit_of(scene);
   result.title = fmt::format("{}: {}", run.subject, origin(finding, run, plan));
@@ -45,7 +45,7 @@ Exhibit exhibit(const Finding& finding, const RunResult& run, const RunPlan& pla
 }
 
 FirstWrong first_wrong(const Finding& finding, const RunResult& run, const RunPlan& plan) {
-  const Triangle& triangle = finding.scene.triangles[finding.wrong.triangle];
+  const Triangle& triangle = finding.window.triangles[finding.wrong.triangle];
   FirstWrong first;
   first.kind = name_of(finding.wrong.kind);
   first.triangle = finding.wrong.triangle;
@@ -78,6 +78,9 @@ std::string reason(const RunResult& run, const KnownDeviation* deviation) {
     return fmt::format("{} of {} triangles are wrong", outcome.triangles.wrong_triangles, outcome.triangles.triangles);
   }
   if (outcome.known_triangles != 0) return deviation->cause;
+  if (outcome.unpredicted != 0) {
+    return fmt::format("{} further triangles lie beyond the reach of the model of its clipper", outcome.unpredicted);
+  }
   return trial.own_snap.value_or(std::string());
 }
 
@@ -114,6 +117,7 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.unexpected = outcome.triangles.unexpected;
   result.doubled = outcome.meshes.doubled;
   result.known_triangles = outcome.known_triangles;
+  result.unpredicted = outcome.unpredicted;
   if (const Finding* first = first_to_show(outcome)) result.first = first_wrong(*first, run, plan);
   result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject));
   result.seconds = run.trial.seconds;
@@ -127,7 +131,7 @@ Case reproduction(const Finding& finding, const RunResult& run, const RunPlan& p
   result.source = origin(finding, run, plan);
   result.scene = finding.scene;
   const MaskLayout layout(finding.scene.setting);
-  if (std::max(layout.target.width, layout.target.height) > kMostReadableExtent) return result;
+  if (finding.scene.clip || std::max(layout.target.width, layout.target.height) > kMostReadableExtent) return result;
 
   Expectation expect;
   for (int y = 0; y < layout.target.height; ++y) {

@@ -33,13 +33,26 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 }  // namespace
 
+std::optional<std::string> Judge::refusal(const Scene& scene) const {
+  if (auto refused = subject_.refusal(scene)) return refused;
+  if (scene.clip && !reference_.judges_clip_space()) return "no model of its clipper and transform is known";
+  return std::nullopt;
+}
+
 tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   if (auto drawn = subject_.draw(batch.scene, observed_); !drawn) return drawn;
   if (auto known = reference_.expect(batch.scene, first_triangle, expected_); !known) return known;
 
+  // What nobody predicts is not compared, and not counted as compared.
+  const MaskLayout layout(batch.scene.setting);
+  const std::size_t unpredicted = reference_.unpredicted().size();
+  for (const std::size_t i : reference_.unpredicted()) std::ranges::copy(observed_[i], expected_[i].begin());
+  outcome.unpredicted += unpredicted;
+
   Comparison comparison;
-  compare_masks(MaskLayout(batch.scene.setting), expected_.data(), batch.may, observed_.data(), first_triangle,
-                comparison);
+  compare_masks(layout, expected_.data(), batch.may, observed_.data(), first_triangle, comparison);
+  comparison.triangles -= unpredicted;
+  comparison.samples_compared -= unpredicted * layout.sample_count();
   outcome.triangles.add(comparison);
   if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
     if (auto judged = judge_triangles(batch, outcome); !judged) return judged;
@@ -52,7 +65,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
 // wrong one goes to both oracles before anybody is blamed.
 tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
-  for (std::size_t i = 0; i < batch.scene.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
     const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
     if (wrong) {
@@ -108,6 +121,23 @@ bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   return std::ranges::equal(predicted_, observed_[triangle]);
 }
 
+// The triangles that clipping left are drawn together: the first of them bears the masks of them all.
+void Judge::show_clipped(std::size_t triangle, const MaskLayout& layout, Finding& finding) const {
+  const WindowScene& window = reference_.window();
+  finding.window.setting = window.scene.setting;
+  finding.window.rules = window.scene.rules;
+  for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
+    finding.window.triangles.push_back(window.scene.triangles[i]);
+  }
+  if (finding.window.triangles.empty())
+    finding.window.triangles.push_back({});  // nothing is left, and nothing expected
+  for (const auto& [from, to] : {std::pair(&expected_, &finding.expected), std::pair(&observed_, &finding.observed)}) {
+    to->reset(layout, finding.window.triangles.size());
+    std::ranges::fill(to->data(), 0);
+    std::ranges::copy((*from)[triangle], (*to)[0].begin());
+  }
+}
+
 void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                         Outcome& outcome) const {
   const bool torn_mesh = count > 1;
@@ -119,18 +149,28 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   Finding finding;
   finding.scene.setting = batch.scene.setting;
   finding.scene.rules = batch.scene.rules;
-  const auto begin = batch.scene.triangles.begin() + static_cast<std::ptrdiff_t>(first);
-  finding.scene.triangles.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-  if (torn_mesh) finding.scene.meshes.push_back({0, count});
   const MaskLayout layout(batch.scene.setting);
-  copy_masks(layout, expected_, first, count, finding.expected);
-  copy_masks(layout, observed_, first, count, finding.observed);
+  const auto slice = [&](const auto& all) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::vector(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  if (batch.scene.clip) {
+    finding.scene.clip = ClipGeometry{batch.scene.clip->viewport, slice(batch.scene.clip->triangles)};
+    show_clipped(first, layout, finding);
+  } else {
+    finding.scene.triangles = slice(batch.scene.triangles);
+    if (torn_mesh) finding.scene.meshes.push_back({0, count});
+    finding.window = finding.scene;
+    copy_masks(layout, expected_, first, count, finding.expected);
+    copy_masks(layout, observed_, first, count, finding.observed);
+  }
   finding.wrong = wrong;
   finding.wrong.triangle -= first;
   // A hole belongs to whichever triangle should have filled it: that one's edges explain it.
   for (std::size_t i = 0; torn_mesh && wrong.kind == WrongSample::Kind::missing && i < count; ++i) {
     if (covered(finding.expected[i], layout.bit(wrong.x, wrong.y, wrong.sample))) finding.wrong.triangle = i;
   }
+  if (batch.scene.clip) finding.wrong.triangle = 0;
   finding.known = known;
   for (const Batch::Part& part : batch.parts) {
     if (part.first <= first) finding.part_index = part.index;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -33,9 +34,10 @@ struct Batch {
 /// One wrong sample with all it takes to show it: the triangle alone, or the mesh if it is the mesh that is torn.
 struct Finding {
   Scene scene;
+  Scene window;  ///< the scene, or what the subject's model makes of it in the window
   MaskBatch expected;
   MaskBatch observed;
-  WrongSample wrong;             ///< its triangle counts in `scene`
+  WrongSample wrong;             ///< its triangle counts in `window`
   std::uint64_t part_index = 0;  ///< the generator's scene number
   bool known = false;            ///< predicted by a known deviation's model
 };
@@ -45,6 +47,7 @@ struct Outcome {
   Comparison triangles;
   Watertightness meshes;
   std::uint64_t known_triangles = 0;  ///< wrong as predicted
+  std::uint64_t unpredicted = 0;      ///< in clip space beyond the reach of the model; not compared
   std::uint64_t unexplained = 0;      ///< triangles wrong and not predicted, or predicted wrong and right
   /// The first few of each kind.
   std::vector<Finding> findings;
@@ -56,7 +59,10 @@ class Judge {
   Judge(Subject& subject, Reference& reference, const KnownDeviation* deviation)
       : subject_(subject), reference_(reference), deviation_(deviation) {}
 
-  /// Draws `batch`, which the subject must not refuse, and adds what came of it. `first_triangle` is the number of the
+  /// Why the scene cannot be judged: the subject refuses it, or nobody knows what it has to cover.
+  std::optional<std::string> refusal(const Scene& scene) const;
+
+  /// Draws `batch`, which must not be refused, and adds what came of it. `first_triangle` is the number of the
   /// batch's first triangle in the whole run. An error means that subject or suite failed, not that samples are wrong.
   tl::expected<void, Error> judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
 
@@ -67,6 +73,8 @@ class Judge {
   bool as_predicted(const Batch& batch, std::size_t triangle);
   void add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                    Outcome& outcome) const;
+
+  void show_clipped(std::size_t triangle, const MaskLayout& layout, Finding& finding) const;
 
   Subject& subject_;
   Reference& reference_;

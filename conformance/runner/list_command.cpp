@@ -41,6 +41,7 @@ int list_command(const DataFiles& data, const std::string& what) {
   }
   if (heading("generators")) {
     for (const Generator& generator : generators()) line(generator.name, generator.about);
+    for (const Generator& generator : clip_generators()) line(generator.name, generator.about);
   }
   return kAsExpected;
 }

@@ -18,6 +18,16 @@ std::string coordinates(const Triangle& triangle) {
 }  // namespace
 
 tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must) {
+  window_.reset();
+  if (!scene.clip) return expect_window(scene, first_index, must);
+  window_.emplace(window_scene(*model_, scene));
+  if (auto parts = expect_window(window_->scene, first_index, parts_); !parts) return parts;
+  must.reset(MaskLayout(scene.setting), triangle_count(scene));
+  unite(*window_, parts_, must);
+  return {};
+}
+
+tl::expected<void, Error> Reference::expect_window(const Scene& scene, std::uint64_t first_index, MaskBatch& must) {
   // The fast rasterizer snaps in one way only. For other rules it is given vertices that are snapped already, and the
   // oracle that shares no code with that snap sees to it being right.
   const bool other_snap = scene.rules != Rules{scene.rules.subpixel_bits};
@@ -33,7 +43,7 @@ tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t fi
   }
   for (std::size_t i = (kOracleShare - first_index % kOracleShare) % kOracleShare; i < scene.triangles.size();
        i += kOracleShare) {
-    if (auto confirmed = confirm(scene, i, must[i]); !confirmed) return confirmed;
+    if (auto confirmed = confirm_window(scene, i, must[i]); !confirmed) return confirmed;
   }
   return {};
 }
@@ -52,6 +62,14 @@ void Reference::snap_all(const Scene& scene) {
 }
 
 tl::expected<void, Error> Reference::confirm(const Scene& scene, std::size_t index, MaskView must) {
+  if (!scene.clip) return confirm_window(scene, index, must);
+  for (std::size_t part = window_->first[index]; part < window_->first[index + 1]; ++part) {
+    if (auto confirmed = confirm_window(window_->scene, part, parts_[part]); !confirmed) return confirmed;
+  }
+  return {};
+}
+
+tl::expected<void, Error> Reference::confirm_window(const Scene& scene, std::size_t index, MaskView must) {
   const Triangle& triangle = scene.triangles[index];
   scratch_.resize(must.size());
   ++confirmed_;

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "conformance/models/window_scene.h"
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
@@ -20,23 +22,42 @@ inline constexpr std::uint64_t kOracleShare = 64;
 class Reference {
  public:
   /// `fast` answers in bulk, and the oracles judge it; without it the oracle by definition answers for every triangle.
-  explicit Reference(std::unique_ptr<Subject> fast) : fast_(std::move(fast)) {}
+  /// `model` says what the subject's clipper and transform do, and may be null: then clip space cannot be judged.
+  explicit Reference(std::unique_ptr<Subject> fast, const TransformModel* model = nullptr)
+      : fast_(std::move(fast)), model_(model) {}
+
+  bool judges_clip_space() const { return model_ != nullptr; }
 
   /// Fills `must` with one mask per triangle of `scene`. `first_index` counts on through a run and picks the share that
-  /// the oracles check. An error is a fault of ours: two of the three answers differ.
+  /// the oracles check. Of triangles in clip space, it is what the model predicts. An error is a fault of ours: two of
+  /// the three answers differ.
   tl::expected<void, Error> expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
 
-  /// Gives triangle `index` of `scene` to both oracles; an error if one of them differs from `must`.
+  /// The triangles of the last scene for which the model does not reach far enough; their masks mean nothing.
+  std::span<const std::size_t> unpredicted() const {
+    return window_ ? std::span<const std::size_t>(window_->unpredicted) : std::span<const std::size_t>();
+  }
+
+  /// The last scene, which was in clip space, as the model has it in the window: what an exact rasterizer has to cover.
+  const WindowScene& window() const { return *window_; }
+
+  /// Gives triangle `index` of `scene`, the last one given to expect(), to both oracles, or in clip space all that the
+  /// model makes of it; an error if one of them differs from `must`.
   tl::expected<void, Error> confirm(const Scene& scene, std::size_t index, MaskView must);
 
   /// Triangles given to both oracles so far.
   std::uint64_t confirmed() const { return confirmed_; }
 
  private:
+  tl::expected<void, Error> expect_window(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
+  tl::expected<void, Error> confirm_window(const Scene& scene, std::size_t index, MaskView must);
   /// Fills snapped_ with the scene's vertices as its rules snap them; exact, a grid coordinate having at most 24 bits.
   void snap_all(const Scene& scene);
 
   std::unique_ptr<Subject> fast_;
+  const TransformModel* model_;
+  std::optional<WindowScene> window_;
+  MaskBatch parts_;
   Scene snapped_;
   std::vector<std::uint64_t> scratch_;
   std::uint64_t confirmed_ = 0;

@@ -15,11 +15,11 @@ namespace {
 // Our own rasterizer is judged by the oracle, on every triangle; it stands in for the oracle against everybody else.
 bool is_ours(const std::string& subject) { return subject == "edgecase" || subject.starts_with("edgecase:"); }
 
-tl::expected<Reference, Error> reference_for(const std::string& subject) {
+tl::expected<Reference, Error> reference_for(const std::string& subject, const std::string& device) {
   if (is_ours(subject)) return Reference(nullptr);
   auto fast = make_subject("edgecase");
   if (!fast) return tl::unexpected(fast.error());
-  return Reference(std::move(*fast));
+  return Reference(std::move(*fast), find_transform_model(subject, device));
 }
 
 // Ours snap as the scene asks or as they claim, and what a model predicts in full needs no rule; drivers are found out.
@@ -48,7 +48,7 @@ class Benches {
     if (!bench) {
       auto subject = make_subject(name);
       if (!subject) return tl::unexpected(subject.error());
-      auto reference = reference_for(name);
+      auto reference = reference_for(name, (*subject)->info().device);
       if (!reference) return tl::unexpected(reference.error());
       const KnownDeviation* deviation = find_known_deviation(plan_.known_deviations, name);
       auto rules = rules_of(**subject, deviation);
@@ -75,7 +75,7 @@ void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
   result.snap = describe_snap((*bench)->rules);
   if (result.testcase.file != nullptr) {
     result.trial = try_case(*result.testcase.file, subject, (*bench)->rules, (*bench)->judge);
-    on_progress(result.testcase.file->scene.triangles.size());
+    on_progress(triangle_count(result.testcase.file->scene));
   } else {
     result.trial = try_generator(*result.testcase.generator, subject, (*bench)->rules, (*bench)->judge,
                                  {plan.count, plan.seed, on_progress});

@@ -35,6 +35,7 @@ tl::expected<std::vector<const Generator*>, Error> chosen_generators(const std::
     if (generator == nullptr) {
       std::vector<std::string_view> all;
       for (const Generator& g : generators()) all.push_back(g.name);
+      for (const Generator& g : clip_generators()) all.push_back(g.name);
       const auto nearest = nearest_name(name, all);
       return tl::unexpected(Error{ErrorKind::bad_input,
                                   fmt::format("no generator is called \"{}\"{}", name,
@@ -73,6 +74,7 @@ tl::expected<void, Error> select(const DataFiles& data, const RunOptions& option
   if (!chosen) return tl::unexpected(chosen.error());
   if (everything) {
     for (const Generator& generator : generators()) chosen->push_back(&generator);
+    for (const Generator& generator : clip_generators()) chosen->push_back(&generator);
   }
   auto known = load_known_deviations(data.known_deviations);
   if (!known) return tl::unexpected(known.error());

@@ -109,7 +109,7 @@ Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& ju
     trial.skipped = scene.error();
     return trial;
   }
-  trial.skipped = subject.refusal(*scene);
+  trial.skipped = judge.refusal(*scene);
   if (trial.skipped) return trial;
   if (file.expect) trial.failure = contradiction(file, file.scene);
   if (trial.failure) return trial;
@@ -140,20 +140,21 @@ Trial try_generator(const Generator& generator, Subject& subject, const Rules& r
   for (std::uint64_t done = 0; done < options.count;) {
     batch.scene.triangles.clear();
     batch.scene.meshes.clear();
+    batch.scene.clip.reset();
     batch.parts.clear();
     const std::uint64_t wanted = std::min<std::uint64_t>(full, options.count - done);
-    while (batch.scene.triangles.size() < wanted) {
-      batch.parts.push_back({index, batch.scene.triangles.size()});
+    while (triangle_count(batch.scene) < wanted) {
+      batch.parts.push_back({index, triangle_count(batch.scene)});
       append_scene(generator, options.seed, index++, batch.scene);
     }
-    trial.skipped = subject.refusal(batch.scene);
+    trial.skipped = judge.refusal(batch.scene);
     if (trial.skipped) break;
     if (auto judged = judge.judge(batch, done, trial.outcome); !judged) {
       trial.failure = judged.error();
       break;
     }
-    done += batch.scene.triangles.size();
-    options.on_progress(batch.scene.triangles.size());
+    done += triangle_count(batch.scene);
+    options.on_progress(triangle_count(batch.scene));
   }
   trial.seconds = watch.seconds();
   trial.subject_seconds = subject.driver_seconds() - subject_seconds;

@@ -18,7 +18,7 @@ struct Testcase {
   const Case* file = nullptr;
   const Generator* generator = nullptr;
 
-  std::uint64_t triangles(std::uint64_t count) const { return file != nullptr ? file->scene.triangles.size() : count; }
+  std::uint64_t triangles(std::uint64_t count) const { return file != nullptr ? triangle_count(file->scene) : count; }
   std::string name() const { return file != nullptr ? file->name : std::string(generator->name); }
   std::string category() const { return file != nullptr ? file->category : std::string(generator->category); }
 };

@@ -72,7 +72,7 @@ struct Assembly {
   friend bool operator==(const Assembly&, const Assembly&) = default;
 };
 
-/// Plain data. Every position is finite; every mesh range lies inside `triangles`.
+/// Plain data; see triangle_count. Every position is finite; every mesh range lies inside `triangles`.
 struct Scene {
   Setting setting;
   Rules rules;
@@ -83,5 +83,10 @@ struct Scene {
   /// If present, `triangles` and `meshes` are empty: a subject is fed this, and what it covers depends on its clipper.
   std::optional<ClipGeometry> clip{};
 };
+
+/// Triangles of the scene, however they are given.
+inline std::size_t triangle_count(const Scene& scene) {
+  return scene.clip ? scene.clip->triangles.size() : scene.triangles.size();
+}
 
 }  // namespace edgecase::conformance

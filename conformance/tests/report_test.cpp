@@ -101,7 +101,7 @@ TEST(JsonReport, HasEveryKeyInTheDesignsOrder) {
   ASSERT_EQ(root["results"].size(), 4u);
   for (const auto& result : root["results"]) {
     EXPECT_THAT(keys(result), ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles",
-                                          "samples_compared", "missing", "unexpected", "doubled", "known_triangles",
+                                          "samples_compared", "missing", "unexpected", "doubled", "known_triangles", "unpredicted",
                                           "first", "reason", "seconds", "subject_seconds"));
   }
   EXPECT_THAT(keys(root["totals"]), ElementsAre("pass", "fail", "known", "skip", "triangles", "samples_compared",
@@ -117,7 +117,7 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["results"][0], json::parse(R"j({
       "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "snap": null, "case": "cases/a.json", "category": "edges",
       "verdict": "pass", "triangles": 4, "samples_compared": 1024, "missing": 0, "unexpected": 0, "doubled": 0,
-      "known_triangles": 0, "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
+      "known_triangles": 0, "unpredicted": 0, "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
 })j"));
   EXPECT_EQ(root["results"][1]["verdict"], "fail");
   EXPECT_EQ(root["results"][1]["device"], nullptr);
