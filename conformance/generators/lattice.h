@@ -25,7 +25,7 @@ inline std::int64_t orientation(const LatticePoint& a, const LatticePoint& b, co
 class Lattice {
  public:
   /// `bits` at least 1, so that pixel centres are lattice points.
-  Lattice(const Extent& target, int bits) : target_(target), bits_(bits) {}
+  Lattice(const Extent& target, int bits) : target_(target), bits_(bits), unit_(std::ldexp(1.0f, -bits)) {}
 
   std::int64_t pixel() const { return std::int64_t{1} << bits_; }
   std::int64_t half_pixel() const { return pixel() / 2; }
@@ -34,7 +34,7 @@ class Lattice {
 
   /// Exact: lattice coordinates of generated points have at most 24 bits.
   Position position(const LatticePoint& p) const {
-    return {std::ldexp(static_cast<float>(p.x), -bits_), std::ldexp(static_cast<float>(p.y), -bits_)};
+    return {static_cast<float>(p.x) * unit_, static_cast<float>(p.y) * unit_};
   }
   Triangle triangle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) const {
     return {position(a), position(b), position(c)};
@@ -55,6 +55,7 @@ class Lattice {
  private:
   Extent target_;
   int bits_;
+  float unit_;  ///< 2^-bits
 };
 
 }  // namespace edgecase::conformance

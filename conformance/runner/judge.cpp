@@ -1,10 +1,12 @@
 #include "conformance/runner/judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 #include <span>
 
 #include "conformance/oracle/oracle.h"
+#include "conformance/scene/grid.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -91,13 +93,17 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& ou
 
 void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   if (batch.scene.meshes.empty()) return;
+  const double scale = std::ldexp(1.0, batch.scene.rules.subpixel_bits);
   WatertightChecker checker(batch.scene.setting, batch.scene.rules.subpixel_bits);
   for (const Mesh& mesh : batch.scene.meshes) {
     snapped_.clear();
     for (std::size_t i = mesh.first; i < mesh.first + mesh.count; ++i) {
       const Triangle& t = batch.scene.triangles[i];
-      const Rules& rules = batch.scene.rules;
-      snapped_.push_back({oracle::snap(rules, t[0]), oracle::snap(rules, t[1]), oracle::snap(rules, t[2])});
+      const auto grid_point = [&](const Position& p) {
+        const auto point = on_grid(p, scale);
+        return point ? *point : oracle::snap(batch.scene.rules, p);
+      };
+      snapped_.push_back({grid_point(t[0]), grid_point(t[1]), grid_point(t[2])});
     }
     Watertightness found;
     checker.check(snapped_, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "conformance/oracle/oracle.h"
+#include "conformance/scene/grid.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -13,6 +14,13 @@ namespace {
 std::string coordinates(const Triangle& triangle) {
   return fmt::format("({:a}, {:a}) ({:a}, {:a}) ({:a}, {:a})", triangle[0].x, triangle[0].y, triangle[1].x,
                      triangle[1].y, triangle[2].x, triangle[2].y);
+}
+
+// Exact: a grid coordinate has at most 24 bits.
+Position snapped(const Rules& rules, const Position& position) {
+  const GridPoint p = oracle::snap(rules, position);
+  return {std::ldexp(static_cast<float>(p.x), -rules.subpixel_bits),
+          std::ldexp(static_cast<float>(p.y), -rules.subpixel_bits)};
 }
 
 }  // namespace
@@ -52,11 +60,11 @@ void Reference::snap_all(const Scene& scene) {
   snapped_.setting = scene.setting;
   snapped_.rules = Rules{scene.rules.subpixel_bits};
   snapped_.triangles.resize(scene.triangles.size());
+  const double scale = std::ldexp(1.0, scene.rules.subpixel_bits);
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     for (std::size_t v = 0; v < 3; ++v) {
-      const GridPoint p = oracle::snap(scene.rules, scene.triangles[i][v]);
-      snapped_.triangles[i][v] = {std::ldexp(static_cast<float>(p.x), -scene.rules.subpixel_bits),
-                                  std::ldexp(static_cast<float>(p.y), -scene.rules.subpixel_bits)};
+      const Position& position = scene.triangles[i][v];
+      snapped_.triangles[i][v] = on_grid(position, scale) ? position : snapped(scene.rules, position);
     }
   }
 }

@@ -17,7 +17,7 @@
 namespace edgecase::conformance {
 
 /// One in this many triangles that our fast rasterizer answers for is given to both oracles as well.
-inline constexpr std::uint64_t kOracleShare = 64;
+inline constexpr std::uint64_t kOracleShare = 256;
 
 class Reference {
  public:
@@ -51,7 +51,7 @@ class Reference {
  private:
   tl::expected<void, Error> expect_window(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
   tl::expected<void, Error> confirm_window(const Scene& scene, std::size_t index, MaskView must);
-  /// Fills snapped_ with the scene's vertices as its rules snap them; exact, a grid coordinate having at most 24 bits.
+  /// Fills snapped_ with the scene's vertices as its rules snap them.
   void snap_all(const Scene& scene);
 
   std::unique_ptr<Subject> fast_;
