@@ -75,7 +75,7 @@ std::string as_rows(const Case& one, const std::vector<std::int8_t>& counts) {
   return rows;
 }
 
-TEST(CasesFolder, HasCases) { EXPECT_GE(all_cases().size(), 200u); }
+TEST(CasesFolder, HasCases) { EXPECT_GE(all_cases().size(), 350u); }
 
 TEST(CasesFolder, EveryExpectationIsWhatBothOraclesSay) {
   for (const Case& one : all_cases()) {
