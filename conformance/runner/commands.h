@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "conformance/scene/error.h"
+#include "conformance/scene/setting.h"
 
 namespace edgecase::conformance {
 
@@ -35,6 +36,15 @@ struct RunOptions {
   int jobs = 1;
 };
 
+struct ExhaustOptions {
+  int lattice_bits = 2;
+  Extent target{4, 4};
+  std::string subject = "edgecase";
+  std::string json;
+  std::string state;
+  int jobs = 1;
+};
+
 struct ShowOptions {
   std::string case_name;
   std::string subject;
@@ -44,6 +54,7 @@ struct ShowOptions {
 /// `what` is "cases", "subjects", "generators", or empty for all of them.
 int list_command(const DataFiles& data, const std::string& what);
 int run_command(const DataFiles& data, const RunOptions& options);
+int exhaust_command(const DataFiles& data, const ExhaustOptions& options);
 int show_command(const DataFiles& data, const ShowOptions& options);
 
 /// Prints `error` to standard error and returns the exit status of its kind.

@@ -59,7 +59,7 @@ tl::expected<void, Error> Reference::confirm(const Scene& scene, std::size_t ind
   if (!std::ranges::equal(scratch_, must)) {
     return tl::unexpected(
         Error{ErrorKind::subject,
-              fmt::format("our rasterizer and the oracle by definition differ on {}", coordinates(triangle))});
+              fmt::format("the fast answer and the oracle by definition differ on {}", coordinates(triangle))});
   }
   oracle::cover_by_shift(scene.setting, scene.rules, triangle, scratch_);
   if (!std::ranges::equal(scratch_, must)) {

@@ -165,6 +165,32 @@ TEST_F(CommandLine, EveryBadCaseFileIsNamedWithFieldAndValue) {
   EXPECT_THAT(contradiction.out, HasSubstr("the case says 1 triangles, the rules say 0"));
 }
 
+TEST_F(CommandLine, ExhaustsALatticeAlsoAfterBeingKilled) {
+  // Far more triangles than can be drawn until it is killed; a state is written every second.
+  const std::string arguments = "exhaust --lattice-bits 3 --target 4x4 --subject fault:all-exclusive --jobs 1 --state s.json";
+  const auto killed_at = [&] {
+    const int status = std::system(
+        ("cd '" + folder_.string() + "' && timeout -s KILL 1.6 '" EDGECASE_PROGRAM "' " + arguments + " 2>/dev/null").c_str());
+    EXPECT_NE(status, 0);
+    return nlohmann::json::parse(slurp(folder_ / "s.json"))["triangles"].get<std::uint64_t>();
+  };
+  const std::uint64_t first = killed_at();
+  EXPECT_GT(first, 0u);
+  EXPECT_GT(killed_at(), first);
+  const Outcome other = run("exhaust --lattice-bits 3 --target 4x4 --subject fault:y-flipped --state s.json");
+  expect_one_line(other, 2, "s.json: subject is \"fault:all-exclusive\"");
+  const std::string smaller = "exhaust --lattice-bits 1 --target 4x4 --subject fault:all-exclusive --json r.json";
+  EXPECT_EQ(run(smaller).status, 1);
+  const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+  EXPECT_EQ(json["triangles"], 85'320);
+  EXPECT_EQ(json["samples_compared"], 85'320 * 16);
+  EXPECT_GT(json["wrong"], 0);
+  EXPECT_GT(json["seconds"], 0);
+  expect_one_line(run("exhaust --lattice-bits 1 --target 13x5"), 2, "13x5");
+  EXPECT_EQ(run("exhaust --target 4x").status, 2);
+  EXPECT_EQ(run("exhaust --target 65x1").status, 2);
+}
+
 TEST_F(CommandLine, FilesAreWholeOrAbsent) {
   write("a.json", kCase);
   expect_one_line(run("run a.json --subject edgecase --report /proc/none"), 2, "/proc/none");
