@@ -27,7 +27,9 @@ struct DataFiles {
 struct RunOptions {
   std::vector<std::string> cases;
   std::vector<std::string> subjects;
+  /// Names of generators or metamorphic checks.
   std::vector<std::string> generators;
+  std::vector<std::string> categories;
   std::uint64_t count = 100'000;
   std::uint64_t seed = 1;
   std::string json;
@@ -51,7 +53,7 @@ struct ShowOptions {
   std::string png;
 };
 
-/// `what` is "cases", "subjects", "generators", or empty for all of them.
+/// `what` is "cases", "subjects", "generators", "categories", or empty for all of them.
 int list_command(const DataFiles& data, const std::string& what);
 int run_command(const DataFiles& data, const RunOptions& options);
 int exhaust_command(const DataFiles& data, const ExhaustOptions& options);

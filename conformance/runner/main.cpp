@@ -19,8 +19,11 @@ void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Compare subjects with the rules on cases and generators");
   run->add_option("CASE", options.cases, "Case: a name, a pattern of names such as 'ties/*', or a file");
   run->add_option("--subject", options.subjects, "Rasterizer under test; may be repeated")->type_name("S")->take_all();
-  run->add_option("--generator", options.generators, "Generator of triangles; may be repeated")
+  run->add_option("--generator", options.generators, "Generator or metamorphic check; may be repeated")
       ->type_name("G")
+      ->take_all();
+  run->add_option("--category", options.categories, "Only what is of this category; may be repeated")
+      ->type_name("C")
       ->take_all();
   run->add_option("--count", options.count, "Triangles of each generator, at least; scenes are whole")
       ->type_name("N")
@@ -45,7 +48,8 @@ std::string parse_target(const std::string& text, Extent& target) {
 }
 
 void add_exhaust(CLI::App& app, ExhaustOptions& options) {
-  CLI::App* exhaust = app.add_subcommand("exhaust", "Compare one subject with the oracle on every triangle of a lattice");
+  CLI::App* exhaust =
+      app.add_subcommand("exhaust", "Compare one subject with the oracle on every triangle of a lattice");
   exhaust->add_option("--lattice-bits", options.lattice_bits, "The lattice has 2^B steps a pixel")
       ->type_name("B")
       ->check(CLI::Range(0, 8))
@@ -62,8 +66,12 @@ void add_exhaust(CLI::App& app, ExhaustOptions& options) {
       ->type_name("WxH");
   exhaust->add_option("--subject", options.subject, "Rasterizer under test")->type_name("S")->capture_default_str();
   exhaust->add_option("--json", options.json, "Write the result as JSON")->type_name("FILE");
-  exhaust->add_option("--state", options.state, "Keep there how far it has come, and go on from there")->type_name("FILE");
-  exhaust->add_option("--jobs", options.jobs, "Threads")->type_name("N")->check(CLI::Range(1, 1024))->capture_default_str();
+  exhaust->add_option("--state", options.state, "Keep there how far it has come, and go on from there")
+      ->type_name("FILE");
+  exhaust->add_option("--jobs", options.jobs, "Threads")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
 }
 
 void add_show(CLI::App& app, ShowOptions& options) {
@@ -92,9 +100,9 @@ int dispatch(int argc, char** argv) {
   app.footer(kFooter);
 
   std::string list_what;
-  CLI::App* list = app.add_subcommand("list", "Name the cases, subjects and generators there are");
-  list->add_option("WHAT", list_what, "cases, subjects or generators; all of them without")
-      ->check(CLI::IsMember({"cases", "subjects", "generators"}));
+  CLI::App* list = app.add_subcommand("list", "Name the cases, subjects, generators and categories there are");
+  list->add_option("WHAT", list_what, "cases, subjects, generators or categories; all of them without")
+      ->check(CLI::IsMember({"cases", "subjects", "generators", "categories"}));
   RunOptions run_options;
   run_options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   add_run(app, run_options);

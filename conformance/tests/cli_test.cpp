@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -119,6 +120,31 @@ TEST_F(CommandLine, ListsAndShows) {
   EXPECT_THAT(shown.out, AllOf(HasSubstr("A test."), HasSubstr("#")));
   EXPECT_EQ(run("show a.json --subject fault:all-exclusive --png p.png").status, 0);
   EXPECT_THAT(slurp(folder_ / "p.png").substr(1, 3), "PNG");
+}
+
+TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
+  const std::string categories = run("list categories").out;
+  for (const char* name : {"fan ", "shared_edge ", "ties ", "range ", "winding ", "metamorphic "}) {
+    EXPECT_THAT(categories, HasSubstr(name));
+  }
+  std::istringstream lines(categories);
+  for (std::string line; std::getline(lines, line);) EXPECT_GT(line.size(), 40u) << "says nothing: " << line;
+
+  const auto run_categories = [&](const std::string& arguments) {
+    EXPECT_EQ(run("run --subject edgecase --count 400 --json r.json " + arguments).status, 0);
+    std::set<std::string> found;
+    const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+    for (const auto& result : json["results"]) found.insert(result["category"]);
+    return found;
+  };
+  EXPECT_EQ(run_categories("--category fan --category metamorphic"), (std::set<std::string>{"fan", "metamorphic"}));
+  EXPECT_EQ(run_categories("--category fan --generator fan --generator ties"), std::set<std::string>{"fan"});
+  EXPECT_EQ(run_categories("--generator tiles"), std::set<std::string>{"metamorphic"});
+  expect_one_line(run("run --category metamorfic"), 2, "did you mean \"metamorphic\"?");
+  expect_one_line(run("run --category fan --generator ties"), 2, "is of category \"fan\"");
+  const Outcome caught = run("run --category metamorphic --count 4000 --subject fault:all-exclusive");
+  EXPECT_EQ(caught.status, 1);
+  EXPECT_THAT(caught.out, HasSubstr("before and not after"));
 }
 
 TEST_F(CommandLine, UnknownNamesAreBadInputAndProposeTheNearest) {
