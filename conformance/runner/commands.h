@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "conformance/scene/error.h"
+#include "conformance/scene/setting.h"
 
 namespace edgecase::conformance {
 
@@ -26,12 +27,23 @@ struct DataFiles {
 struct RunOptions {
   std::vector<std::string> cases;
   std::vector<std::string> subjects;
+  /// Names of generators or metamorphic checks.
   std::vector<std::string> generators;
+  std::vector<std::string> categories;
   std::uint64_t count = 50'000;
   std::uint64_t seed = 1;
   std::string json;
   std::string junit;
   std::string report;
+  int jobs = 1;
+};
+
+struct ExhaustOptions {
+  int lattice_bits = 2;
+  Extent target{4, 4};
+  std::string subject = "edgecase";
+  std::string json;
+  std::string state;
   int jobs = 1;
 };
 
@@ -41,9 +53,10 @@ struct ShowOptions {
   std::string png;
 };
 
-/// `what` is "cases", "subjects", "generators", or empty for all of them.
+/// `what` is "cases", "subjects", "generators", "categories", or empty for all of them.
 int list_command(const DataFiles& data, const std::string& what);
 int run_command(const DataFiles& data, const RunOptions& options);
+int exhaust_command(const DataFiles& data, const ExhaustOptions& options);
 int show_command(const DataFiles& data, const ShowOptions& options);
 
 /// Prints `error` to standard error and returns the exit status of its kind.

@@ -70,6 +70,10 @@ std::string reason(const RunResult& run, const KnownDeviation* deviation) {
   if (trial.failure) return trial.failure->message;
   if (trial.skipped) return *trial.skipped;
   const Outcome& outcome = trial.outcome;
+  if (trial.changed) {
+    return fmt::format("{} of {} triangles cover other samples ({}); the first: {}", outcome.unexplained,
+                       outcome.triangles.triangles, run.testcase.metamorphosis->about, *trial.changed);
+  }
   if (outcome.unexplained != 0 && deviation != nullptr) {
     return fmt::format("{} of {} triangles are not what the known deviation's model predicts", outcome.unexplained,
                        outcome.triangles.triangles);

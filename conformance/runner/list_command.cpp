@@ -3,7 +3,9 @@
 #include <cstdio>
 
 #include "conformance/generators/generator.h"
+#include "conformance/metamorphic/metamorphosis.h"
 #include "conformance/runner/case_library.h"
+#include "conformance/runner/categories.h"
 #include "conformance/runner/commands.h"
 #include "conformance/subjects/fault_subject.h"
 #include "conformance/subjects/registry.h"
@@ -42,6 +44,12 @@ int list_command(const DataFiles& data, const std::string& what) {
   if (heading("generators")) {
     for (const Generator& generator : generators()) line(generator.name, generator.about);
     for (const Generator& generator : clip_generators()) line(generator.name, generator.about);
+    for (const Metamorphosis& check : metamorphoses()) line(check.name, check.about);
+  }
+  if (heading("categories")) {
+    const auto categories = load_categories(data.cases);
+    if (!categories) return fail(categories.error());
+    for (const Category& category : *categories) line(category.name, category.about);
   }
   return kAsExpected;
 }

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <thread>
 
@@ -18,8 +19,11 @@ void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Compare subjects with the rules on cases and generators");
   run->add_option("CASE", options.cases, "Case: a name, a pattern of names such as 'ties/*', or a file");
   run->add_option("--subject", options.subjects, "Rasterizer under test; may be repeated")->type_name("S")->take_all();
-  run->add_option("--generator", options.generators, "Generator of triangles; may be repeated")
+  run->add_option("--generator", options.generators, "Generator or metamorphic check; may be repeated")
       ->type_name("G")
+      ->take_all();
+  run->add_option("--category", options.categories, "Only what is of this category; may be repeated")
+      ->type_name("C")
       ->take_all();
   run->add_option("--count", options.count, "Triangles of each generator, at least; scenes are whole")
       ->type_name("N")
@@ -30,6 +34,44 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--junit", options.junit, "Write the results as JUnit XML")->type_name("FILE");
   run->add_option("--report", options.report, "Folder for pictures, reproductions and index.html")->type_name("DIR");
   run->add_option("--jobs", options.jobs, "Threads")->type_name("N")->check(CLI::Range(1, 1024))->capture_default_str();
+}
+
+// "4x4": nothing but two whole numbers from 1 to 64 is a target small enough.
+std::string parse_target(const std::string& text, Extent& target) {
+  int end = -1;
+  const bool parsed = std::sscanf(text.c_str(), "%4dx%4d%n", &target.width, &target.height, &end) == 2;
+  if (parsed && static_cast<std::size_t>(end) == text.size() && std::min(target.width, target.height) >= 1 &&
+      std::max(target.width, target.height) <= 64) {
+    return {};
+  }
+  return "\"" + text + "\" is no WIDTHxHEIGHT, each from 1 to 64 pixels";
+}
+
+void add_exhaust(CLI::App& app, ExhaustOptions& options) {
+  CLI::App* exhaust =
+      app.add_subcommand("exhaust", "Compare one subject with the oracle on every triangle of a lattice");
+  exhaust->add_option("--lattice-bits", options.lattice_bits, "The lattice has 2^B steps a pixel")
+      ->type_name("B")
+      ->check(CLI::Range(0, 8))
+      ->capture_default_str();
+  exhaust
+      ->add_option_function<std::string>(
+          "--target",
+          [&options](const std::string& text) {
+            if (const std::string error = parse_target(text, options.target); !error.empty()) {
+              throw CLI::ValidationError("--target", error);
+            }
+          },
+          "Pixels; their corners belong to the lattice [4x4]")
+      ->type_name("WxH");
+  exhaust->add_option("--subject", options.subject, "Rasterizer under test")->type_name("S")->capture_default_str();
+  exhaust->add_option("--json", options.json, "Write the result as JSON")->type_name("FILE");
+  exhaust->add_option("--state", options.state, "Keep there how far it has come, and go on from there")
+      ->type_name("FILE");
+  exhaust->add_option("--jobs", options.jobs, "Threads")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
 }
 
 void add_show(CLI::App& app, ShowOptions& options) {
@@ -58,12 +100,15 @@ int dispatch(int argc, char** argv) {
   app.footer(kFooter);
 
   std::string list_what;
-  CLI::App* list = app.add_subcommand("list", "Name the cases, subjects and generators there are");
-  list->add_option("WHAT", list_what, "cases, subjects or generators; all of them without")
-      ->check(CLI::IsMember({"cases", "subjects", "generators"}));
+  CLI::App* list = app.add_subcommand("list", "Name the cases, subjects, generators and categories there are");
+  list->add_option("WHAT", list_what, "cases, subjects, generators or categories; all of them without")
+      ->check(CLI::IsMember({"cases", "subjects", "generators", "categories"}));
   RunOptions run_options;
   run_options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   add_run(app, run_options);
+  ExhaustOptions exhaust_options;
+  exhaust_options.jobs = run_options.jobs;
+  add_exhaust(app, exhaust_options);
   ShowOptions show_options;
   add_show(app, show_options);
 
@@ -81,6 +126,7 @@ int dispatch(int argc, char** argv) {
   const DataFiles data{source / "cases", source / "conformance" / "known_deviations.json"};
   if (*list) return list_command(data, list_what);
   if (app.got_subcommand("bench")) return bench_command(bench_options);
+  if (app.got_subcommand("exhaust")) return exhaust_command(data, exhaust_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
   return run_command(data, run_options);
 }

@@ -85,7 +85,7 @@ tl::expected<void, Error> Reference::confirm_window(const Scene& scene, std::siz
   if (!std::ranges::equal(scratch_, must)) {
     return tl::unexpected(
         Error{ErrorKind::subject,
-              fmt::format("our rasterizer and the oracle by definition differ on {}", coordinates(triangle))});
+              fmt::format("the fast answer and the oracle by definition differ on {}", coordinates(triangle))});
   }
   oracle::cover_by_shift(scene.setting, scene.rules, triangle, scratch_);
   if (!std::ranges::equal(scratch_, must)) {

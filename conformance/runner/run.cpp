@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "conformance/runner/metamorphic_trial.h"
 #include "conformance/runner/snap_probe.h"
 #include "conformance/subjects/registry.h"
 
@@ -76,6 +77,10 @@ void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
   if (result.testcase.file != nullptr) {
     result.trial = try_case(*result.testcase.file, subject, (*bench)->rules, (*bench)->judge);
     on_progress(triangle_count(result.testcase.file->scene));
+  } else if (result.testcase.metamorphosis != nullptr) {
+    result.trial = try_metamorphosis(*result.testcase.metamorphosis, subject, (*bench)->rules,
+                                     find_known_deviation(plan.known_deviations, result.subject),
+                                     {plan.count, plan.seed, on_progress});
   } else {
     result.trial = try_generator(*result.testcase.generator, subject, (*bench)->rules, (*bench)->judge,
                                  {plan.count, plan.seed, on_progress});

@@ -9,8 +9,10 @@
 
 #include "conformance/compare/atomic_file.h"
 #include "conformance/generators/generator.h"
+#include "conformance/metamorphic/metamorphosis.h"
 #include "conformance/report/report.h"
 #include "conformance/runner/case_library.h"
+#include "conformance/runner/categories.h"
 #include "conformance/runner/commands.h"
 #include "conformance/runner/findings.h"
 #include "conformance/runner/progress.h"
@@ -28,23 +30,49 @@ const std::vector<std::string> kDefaultSubjects{"edgecase", "lavapipe", "osmesa-
 // Where pictures go if the user names no folder and there is something to show.
 constexpr const char* kDefaultReport = "edgecase-report";
 
-tl::expected<std::vector<const Generator*>, Error> chosen_generators(const std::vector<std::string>& names) {
-  std::vector<const Generator*> chosen;
-  for (const std::string& name : names) {
-    const Generator* generator = find_generator(name);
-    if (generator == nullptr) {
-      std::vector<std::string_view> all;
-      for (const Generator& g : generators()) all.push_back(g.name);
-      for (const Generator& g : clip_generators()) all.push_back(g.name);
-      const auto nearest = nearest_name(name, all);
-      return tl::unexpected(Error{ErrorKind::bad_input,
-                                  fmt::format("no generator is called \"{}\"{}", name,
+tl::unexpected<Error> no_such(const char* kind, const std::string& name, const std::vector<std::string_view>& all,
+                              const char* listed) {
+  const auto nearest = nearest_name(name, all);
+  return tl::unexpected(
+      Error{ErrorKind::bad_input, fmt::format("no {} is called \"{}\"{}", kind, name,
                                               nearest ? fmt::format("; did you mean \"{}\"?", *nearest)
-                                                      : std::string("; `edgecase list generators` names them all"))});
-    }
-    if (std::ranges::find(chosen, generator) == chosen.end()) chosen.push_back(generator);
+                                                      : fmt::format("; `edgecase list {}` names them all", listed))});
+}
+
+// Generators and metamorphic checks.
+tl::expected<std::vector<Testcase>, Error> chosen_generators(const std::vector<std::string>& names, bool everything) {
+  std::vector<Testcase> all;
+  for (const Generator& generator : generators()) all.push_back({nullptr, &generator, nullptr});
+  for (const Generator& generator : clip_generators()) all.push_back({nullptr, &generator, nullptr});
+  for (const Metamorphosis& check : metamorphoses()) all.push_back({nullptr, nullptr, &check});
+  if (everything) return all;
+  std::vector<Testcase> chosen;
+  std::vector<std::string> names_of_all;
+  for (const Testcase& testcase : all) names_of_all.push_back(testcase.name());
+  const std::vector<std::string_view> known(names_of_all.begin(), names_of_all.end());
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) return no_such("generator", name, known, "generators");
+    const auto is_there = [&](const Testcase& testcase) { return testcase.name() == name; };
+    if (std::ranges::none_of(chosen, is_there)) chosen.push_back(all[static_cast<std::size_t>(found - known.begin())]);
   }
   return chosen;
+}
+
+tl::expected<void, Error> keep_categories(const DataFiles& data, const std::vector<std::string>& names,
+                                          std::vector<Testcase>& testcases) {
+  if (names.empty()) return {};
+  const auto categories = load_categories(data.cases);
+  if (!categories) return tl::unexpected(categories.error());
+  std::vector<std::string_view> known;
+  for (const Category& category : *categories) known.push_back(category.name);
+  for (const std::string& name : names) {
+    if (std::ranges::find(known, name) == known.end()) return no_such("category", name, known, "categories");
+  }
+  std::erase_if(testcases, [&](const Testcase& t) { return std::ranges::find(names, t.category()) == names.end(); });
+  if (!testcases.empty()) return {};
+  return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("nothing of what is named is of category \"{}\"",
+                                                                fmt::join(names, "\" or \""))});
 }
 
 // A folder that cannot be written is found out before an hour of comparing, not after.
@@ -70,12 +98,8 @@ tl::expected<void, Error> select(const DataFiles& data, const RunOptions& option
     if (!cases) return tl::unexpected(cases.error());
     selection.cases = std::move(*cases);
   }
-  auto chosen = chosen_generators(options.generators);
+  const auto chosen = chosen_generators(options.generators, everything);
   if (!chosen) return tl::unexpected(chosen.error());
-  if (everything) {
-    for (const Generator& generator : generators()) chosen->push_back(&generator);
-    for (const Generator& generator : clip_generators()) chosen->push_back(&generator);
-  }
   auto known = load_known_deviations(data.known_deviations);
   if (!known) return tl::unexpected(known.error());
 
@@ -84,8 +108,9 @@ tl::expected<void, Error> select(const DataFiles& data, const RunOptions& option
   for (const std::string& subject : options.subjects.empty() ? kDefaultSubjects : options.subjects) {
     if (std::ranges::find(plan.subjects, subject) == plan.subjects.end()) plan.subjects.push_back(subject);
   }
-  for (const Case& c : selection.cases) plan.testcases.push_back({&c, nullptr});
-  for (const Generator* generator : *chosen) plan.testcases.push_back({nullptr, generator});
+  for (const Case& c : selection.cases) plan.testcases.push_back({&c, nullptr, nullptr});
+  plan.testcases.insert(plan.testcases.end(), chosen->begin(), chosen->end());
+  if (auto kept = keep_categories(data, options.categories, plan.testcases); !kept) return kept;
   plan.count = options.count;
   plan.seed = options.seed;
   plan.jobs = options.jobs;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "conformance/oracle/oracle.h"
+#include "conformance/runner/metamorphic_trial.h"
 #include "conformance/scene/window_position.h"
 
 namespace edgecase::conformance {
@@ -84,6 +85,21 @@ std::vector<std::uint64_t> may_masks(const Case& file, const Scene& scene) {
 }
 
 }  // namespace
+
+std::uint64_t Testcase::triangles(std::uint64_t count) const {
+  if (file != nullptr) return file->scene.triangles.size();
+  return generator != nullptr ? count : metamorphic_count(count);
+}
+
+std::string Testcase::name() const {
+  if (file != nullptr) return file->name;
+  return std::string(generator != nullptr ? generator->name : metamorphosis->name);
+}
+
+std::string Testcase::category() const {
+  if (file != nullptr) return file->category;
+  return generator != nullptr ? std::string(generator->category) : kMetamorphicCategory;
+}
 
 tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules) {
   Scene scene = file.scene;

@@ -1,4 +1,4 @@
-// What a subject is tested with: a case file's scene, or a generator's stream of them.
+// What a subject is tested with: a case file's scene, a generator's stream of them, or a metamorphic check.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,22 @@
 
 #include "conformance/casefile/casefile.h"
 #include "conformance/generators/generator.h"
+#include "conformance/metamorphic/metamorphosis.h"
+#include "conformance/runner/categories.h"
 #include "conformance/runner/judge.h"
 
 namespace edgecase::conformance {
 
-/// Exactly one of the two is there.
+/// Exactly one of the three is there.
 struct Testcase {
   const Case* file = nullptr;
   const Generator* generator = nullptr;
+  const Metamorphosis* metamorphosis = nullptr;
 
-  std::uint64_t triangles(std::uint64_t count) const { return file != nullptr ? triangle_count(file->scene) : count; }
-  std::string name() const { return file != nullptr ? file->name : std::string(generator->name); }
-  std::string category() const { return file != nullptr ? file->category : std::string(generator->category); }
+  /// About how many triangles are judged where a generator makes `count`.
+  std::uint64_t triangles(std::uint64_t count) const;
+  std::string name() const;
+  std::string category() const;
 };
 
 /// What a testcase came to for one subject: an outcome, or a reason why it was not drawn.
@@ -29,6 +33,8 @@ struct Trial {
   std::optional<std::string> skipped;
   /// Set if the subject was judged by its own way of snapping because the case's would have it cover other samples.
   std::optional<std::string> own_snap;
+  /// What a metamorphosis changed first that it must not.
+  std::optional<std::string> changed;
   std::optional<Error> failure;  ///< the subject crashed, or the suite contradicts itself
   double seconds = 0;
   double subject_seconds = 0;  ///< of these, inside the subject's own drawing

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -121,6 +122,31 @@ TEST_F(CommandLine, ListsAndShows) {
   EXPECT_THAT(slurp(folder_ / "p.png").substr(1, 3), "PNG");
 }
 
+TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
+  const std::string categories = run("list categories").out;
+  for (const char* name : {"fan ", "shared_edge ", "ties ", "range ", "winding ", "metamorphic "}) {
+    EXPECT_THAT(categories, HasSubstr(name));
+  }
+  std::istringstream lines(categories);
+  for (std::string line; std::getline(lines, line);) EXPECT_GT(line.size(), 40u) << "says nothing: " << line;
+
+  const auto run_categories = [&](const std::string& arguments) {
+    EXPECT_EQ(run("run --subject edgecase --count 400 --json r.json " + arguments).status, 0);
+    std::set<std::string> found;
+    const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+    for (const auto& result : json["results"]) found.insert(result["category"]);
+    return found;
+  };
+  EXPECT_EQ(run_categories("--category fan --category metamorphic"), (std::set<std::string>{"fan", "metamorphic"}));
+  EXPECT_EQ(run_categories("--category fan --generator fan --generator ties"), std::set<std::string>{"fan"});
+  EXPECT_EQ(run_categories("--generator tiles"), std::set<std::string>{"metamorphic"});
+  expect_one_line(run("run --category metamorfic"), 2, "did you mean \"metamorphic\"?");
+  expect_one_line(run("run --category fan --generator ties"), 2, "is of category \"fan\"");
+  const Outcome caught = run("run --category metamorphic --count 4000 --subject fault:all-exclusive");
+  EXPECT_EQ(caught.status, 1);
+  EXPECT_THAT(caught.out, HasSubstr("before and not after"));
+}
+
 TEST_F(CommandLine, UnknownNamesAreBadInputAndProposeTheNearest) {
   expect_one_line(run("run --subject lavapip"), 2, "lavapipe");
   expect_one_line(run("run --generator fam --subject edgecase"), 2, "\"fan\"");
@@ -163,6 +189,32 @@ TEST_F(CommandLine, EveryBadCaseFileIsNamedWithFieldAndValue) {
       "expect": ["##"]})") + " --subject edgecase");
   EXPECT_EQ(contradiction.status, 1);
   EXPECT_THAT(contradiction.out, HasSubstr("the case says 1 triangles, the rules say 0"));
+}
+
+TEST_F(CommandLine, ExhaustsALatticeAlsoAfterBeingKilled) {
+  // Far more triangles than can be drawn until it is killed; a state is written every second.
+  const std::string arguments = "exhaust --lattice-bits 3 --target 4x4 --subject fault:all-exclusive --jobs 1 --state s.json";
+  const auto killed_at = [&] {
+    const int status = std::system(
+        ("cd '" + folder_.string() + "' && timeout -s KILL 1.6 '" EDGECASE_PROGRAM "' " + arguments + " 2>/dev/null").c_str());
+    EXPECT_NE(status, 0);
+    return nlohmann::json::parse(slurp(folder_ / "s.json"))["triangles"].get<std::uint64_t>();
+  };
+  const std::uint64_t first = killed_at();
+  EXPECT_GT(first, 0u);
+  EXPECT_GT(killed_at(), first);
+  const Outcome other = run("exhaust --lattice-bits 3 --target 4x4 --subject fault:y-flipped --state s.json");
+  expect_one_line(other, 2, "s.json: subject is \"fault:all-exclusive\"");
+  const std::string smaller = "exhaust --lattice-bits 1 --target 4x4 --subject fault:all-exclusive --json r.json";
+  EXPECT_EQ(run(smaller).status, 1);
+  const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+  EXPECT_EQ(json["triangles"], 85'320);
+  EXPECT_EQ(json["samples_compared"], 85'320 * 16);
+  EXPECT_GT(json["wrong"], 0);
+  EXPECT_GT(json["seconds"], 0);
+  expect_one_line(run("exhaust --lattice-bits 1 --target 13x5"), 2, "13x5");
+  EXPECT_EQ(run("exhaust --target 4x").status, 2);
+  EXPECT_EQ(run("exhaust --target 65x1").status, 2);
 }
 
 TEST_F(CommandLine, FilesAreWholeOrAbsent) {

@@ -20,6 +20,7 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"conformance/scene", {}},
     {"conformance/casefile", {"conformance/scene"}},
     {"conformance/generators", {"conformance/scene"}},
+    {"conformance/metamorphic", {"conformance/scene", "conformance/generators"}},
     {"conformance/oracle", {"conformance/scene"}},
     {"conformance/models", {"conformance/scene"}},
     {"conformance/compare", {"conformance/scene"}},
