@@ -62,17 +62,20 @@ tl::expected<std::vector<std::vector<double>>, Error> time_draws(
       for (auto _ : state) {
         state.PauseTiming();
         contender->clear();
+        const double before = contender->driver_seconds();
         state.ResumeTiming();
         if (const auto drawn = contender->draw(); !drawn) {
           state.SkipWithError(drawn.error().message.c_str());
           break;
         }
         benchmark::ClobberMemory();
+        if (contender->clock() == Clock::driver) state.SetIterationTime(contender->driver_seconds() - before);
       }
     };
     auto* const registered = benchmark::RegisterBenchmark(std::to_string(i).c_str(), run);
     registered->Repetitions(static_cast<int>(effort.repetitions))->MinTime(effort.seconds_per_repetition);
-    if (!contenders[i]->in_this_thread()) registered->UseRealTime();
+    if (contenders[i]->clock() == Clock::wall) registered->UseRealTime();
+    if (contenders[i]->clock() == Clock::driver) registered->UseManualTime();
   }
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector, "all");
@@ -80,7 +83,7 @@ tl::expected<std::vector<std::vector<double>>, Error> time_draws(
   if (!collector.error.empty()) return tl::unexpected(Error{ErrorKind::subject, collector.error});
   std::vector<std::vector<double>> seconds;
   for (std::size_t i = 0; i < contenders.size(); ++i) {
-    seconds.push_back(contenders[i]->in_this_thread() ? collector.cpu_seconds[i] : collector.real_seconds[i]);
+    seconds.push_back(contenders[i]->clock() == Clock::thread ? collector.cpu_seconds[i] : collector.real_seconds[i]);
   }
   return seconds;
 }
@@ -181,11 +184,13 @@ tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
   std::vector<std::size_t> triangles;
   std::vector<ErrorCount> errors;
   const std::size_t wanted = std::max<std::size_t>(workload.triangles / effort.divisor, 4);
-  if (auto judged = judge_expectation(make_workload(workload, wanted, seed)); !judged) {
-    return tl::unexpected(judged.error());
-  }
+  const Scene whole = make_workload(workload, wanted, seed);
+  if (auto judged = judge_expectation(whole); !judged) return tl::unexpected(judged.error());
   for (const auto& contender : contenders) {
-    const Scene scene = make_workload(workload, std::min(wanted, contender->most_triangles()), seed);
+    Scene scene = whole;
+    if (const std::size_t most = contender->most_triangles(scene); most < scene.triangles.size()) {
+      scene = make_workload(workload, most, seed);
+    }
     triangles.push_back(scene.triangles.size());
     if (auto prepared = contender->prepare(scene); !prepared) return tl::unexpected(prepared.error());
     contender->clear();
@@ -205,6 +210,8 @@ tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
     row.rasterizer = contenders[i]->name();
     row.isa = contenders[i]->isa();
     row.workload = workload.name;
+    row.clock = contenders[i]->clock();
+    row.target = contenders[i]->target().value_or(whole.setting.target);
     row.triangles = triangles[i];
     row.ns_per_triangle = draw.median / count * 1e9;
     row.spread = draw.spread;

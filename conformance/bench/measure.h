@@ -2,8 +2,7 @@
 //
 // Time. Google Benchmark runs every contender's draw() several times over, the repetitions of all contenders shuffled,
 // so that a slow phase of the machine meets all of them; a ratio counts only within one such run. Masks are cleared
-// outside the time. Rasterizers that work in the calling thread are given that thread's time, which leaves out what
-// other processes took of the processor; subjects, which may have threads of their own, the time that passed.
+// outside the time. Whose time that is, see Clock.
 //
 // Error. Every triangle is drawn on its own and held against the scalar rasterizer, so that a missing and an
 // unexpected pixel never cancel; one triangle in 64 of those answers is held against the oracle by definition.
@@ -33,6 +32,8 @@ struct BenchRow {
   double ratio_to_plain = 0;     ///< how many times as fast as the plain loop; above 1 is faster
   double wrong_per_million = 0;  ///< missing and unexpected pixels, over the pixels that are to be covered
   double covered_px_per_second = 0;
+  Clock clock = Clock::thread;
+  Extent target{};  ///< that it drew on
 };
 
 struct Effort {

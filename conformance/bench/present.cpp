@@ -17,6 +17,18 @@ std::vector<std::string> distinct(std::span<const BenchRow> rows, std::string Be
   return values;
 }
 
+std::string_view name_of(Clock clock) {
+  switch (clock) {
+    case Clock::thread:
+      return "thread";
+    case Clock::wall:
+      return "wall";
+    case Clock::driver:
+      return "driver";
+  }
+  return {};
+}
+
 /// Three significant digits, or a whole number.
 std::string three_digits(double value) {
   if (value == 0) return "0";
@@ -58,7 +70,9 @@ std::string bench_json(std::span<const BenchRow> rows) {
                     {"spread", row.spread},
                     {"ratio_to_plain", row.ratio_to_plain},
                     {"wrong_per_million", row.wrong_per_million},
-                    {"covered_px_per_second", row.covered_px_per_second}});
+                    {"covered_px_per_second", row.covered_px_per_second},
+                    {"clock", name_of(row.clock)},
+                    {"target", {row.target.width, row.target.height}}});
   }
   return nlohmann::ordered_json{{"rows", list}}.dump(2) + "\n";
 }

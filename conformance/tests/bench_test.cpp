@@ -14,6 +14,7 @@
 #include "conformance/bench/plain.h"
 #include "conformance/bench/plot.h"
 #include "conformance/subjects/family_subject.h"
+#include "rasterizer/fast/fast.h"
 #include "rasterizer/scalar.h"
 
 namespace edgecase::conformance {
@@ -48,6 +49,8 @@ TEST(BenchContenders, ThoseThatAreExactCountNoErrorsOnAnyWorkload) {
     SCOPED_TRACE(contender->name());
     EXPECT_TRUE(names.insert(contender->name()).second);
     if (contender->name().starts_with("inexact:")) continue;
+    if (testing::Matches(testing::AnyOf("plain:bits0", "plain:bits2", "plain:bits4", "plain:bits6"))(contender->name()))
+      continue;
     for (const Workload& workload : workloads()) {
       SCOPED_TRACE(workload.name);
       const Scene scene = make_workload(workload, workload.name == "full" ? 4 : workload.name == "sliver" ? 20 : 300);
@@ -60,7 +63,24 @@ TEST(BenchContenders, ThoseThatAreExactCountNoErrorsOnAnyWorkload) {
       EXPECT_EQ(count->wrong, 0u);
     }
   }
-  EXPECT_THAT(names, testing::IsSupersetOf({"plain", "edgecase:larrabee", "inexact:float"}));
+  EXPECT_THAT(names, testing::IsSupersetOf({"plain", "edgecase", "edgecase:portable", "edgecase:larrabee",
+                                            "inexact:float", "plain:bits0", "plain:bits16"}));
+}
+
+TEST(BenchContenders, TheFastPathSaysWhichInstructionSetItRuns) {
+  const auto isas = rasterizer::available_isas();
+  std::size_t found = 0;
+  for (const auto& contender : built_in_contenders()) {
+    if (contender->name() == "edgecase") {
+      EXPECT_EQ(contender->isa(), rasterizer::name_of(isas.back()));
+    }
+    for (const rasterizer::Isa isa : isas) {
+      if (contender->name() != "edgecase:" + std::string(rasterizer::name_of(isa))) continue;
+      EXPECT_EQ(contender->isa(), rasterizer::name_of(isa));
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, isas.size());
 }
 
 TEST(BenchContenders, InexactOnesCountWrongPixels) {
@@ -115,7 +135,7 @@ TEST(BenchPlain, IsExactInNarrowAndInWideSteps) {
     rasterizer::FixedTriangle<F> triangle;
     for (auto& v : triangle) v = vertex();
     std::vector<std::uint8_t> observed(90 * 50), expected(90 * 50);
-    cover_plain(triangle, target, observed.data());
+    cover_plain<8>(triangle, target, observed.data());
     rasterizer::cover_scalar<F>(triangle, rasterizer::View<>{target}, [&](int y, int word, std::uint64_t bits) {
       for (int bit = 0; bit < 64; ++bit) {
         if (bits >> bit & 1) expected.at(static_cast<std::size_t>(y * 90 + word * 64 + bit)) = 1;
@@ -153,8 +173,42 @@ TEST(Bench, ASubjectIsFoundByTheCallersFactory) {
   ASSERT_TRUE(rows) << rows.error().message;
   ASSERT_EQ(rows->size(), 2u);
   EXPECT_EQ((*rows)[1].rasterizer, "edgecase:quads");
-  EXPECT_EQ((*rows)[1].triangles, 256u);
+  EXPECT_EQ((*rows)[1].triangles, 4'000u);
+  EXPECT_EQ((*rows)[1].clock, Clock::wall);
+  EXPECT_LT((*rows)[1].target.width, 64);
+  EXPECT_EQ((*rows)[0].target, (Extent{1920, 1080}));
   EXPECT_EQ((*rows)[1].wrong_per_million, 0);
+}
+
+/// Draws what it should, and says that its driver took a millisecond a draw.
+class TimedSubject : public Subject {
+ public:
+  const SubjectInfo& info() const override { return drawing_->info(); }
+  tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override {
+    seconds_ += 1e-3;
+    return drawing_->draw(scene, masks);
+  }
+  double driver_seconds() const override { return seconds_; }
+
+ private:
+  std::unique_ptr<Subject> drawing_ = make_family_subject("quads");
+  double seconds_ = 0;
+};
+
+TEST(Bench, ADriversOwnClockCounts) {
+  BenchOptions options = quick({"large20k", "full"}, {"timed"});
+  options.make_subject = [](const std::string&) -> tl::expected<std::unique_ptr<Subject>, Error> {
+    return std::make_unique<TimedSubject>();
+  };
+  const auto rows = bench(options);
+  ASSERT_TRUE(rows) << rows.error().message;
+  ASSERT_EQ(rows->size(), 4u);
+  for (const std::size_t i : {1u, 3u}) {
+    const BenchRow& row = (*rows)[i];
+    EXPECT_EQ(row.clock, Clock::driver);
+    EXPECT_NEAR(row.ns_per_triangle, 1e6 / static_cast<double>(row.triangles), 1);
+    EXPECT_EQ(row.wrong_per_million, 0);
+  }
 }
 
 TEST(BenchCommand, BadInputIsOneLineAndAnExitStatus) {
