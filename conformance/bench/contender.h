@@ -23,6 +23,9 @@ inline constexpr std::string_view kPlain = "plain";
 /// The subpixel bits of which speed and error are compared.
 inline constexpr std::array kSubpixelBits{0, 2, 4, 6, 8, 10, 12, 16};
 
+/// The plain loop in the format 16.`bits`: `plain` for 8, the baseline, else `plain:bitsN`.
+std::string plain_name(int bits);
+
 /// Whose time counts: that of the calling thread, which leaves out what other processes took of the processor; the time
 /// that passes; or what the driver itself took, from submission to the last sample (Subject::driver_seconds).
 enum class Clock { thread, wall, driver };

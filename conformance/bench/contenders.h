@@ -32,7 +32,7 @@ inline rasterizer::Target target_of(const Setting& setting) {
   return *rasterizer::Target::make(setting.target.width, setting.target.height);
 }
 
-/// The plain loop with the format 16.`bits`, one of kSubpixelBits: `plain` for 8, the baseline, else `plain:bitsN`.
+/// The plain loop by plain_name; `bits` is one of kSubpixelBits.
 std::unique_ptr<Contender> make_plain_contender(int bits = 8);
 
 /// The fast path on one instruction set, all triangles into one strip mask.

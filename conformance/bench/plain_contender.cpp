@@ -15,7 +15,7 @@ class Plain : public Contender {
  public:
   using Format = rasterizer::Format<16, Bits>;
 
-  std::string name() const override { return Bits == 8 ? std::string(kPlain) : fmt::format("{}:bits{}", kPlain, Bits); }
+  std::string name() const override { return plain_name(Bits); }
   std::string isa() const override { return plain_isa(); }
 
   tl::expected<void, Error> prepare(const Scene& scene) override {
@@ -68,6 +68,8 @@ std::unique_ptr<Contender> make(int bits, std::index_sequence<I...>) {
 }
 
 }  // namespace
+
+std::string plain_name(int bits) { return bits == 8 ? std::string(kPlain) : fmt::format("{}:bits{}", kPlain, bits); }
 
 std::unique_ptr<Contender> make_plain_contender(int bits) {
   return make(bits, std::make_index_sequence<kSubpixelBits.size()>());

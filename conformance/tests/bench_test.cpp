@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "conformance/bench/instructions.h"
 #include "conformance/bench/plain.h"
 #include "conformance/bench/plot.h"
 #include "conformance/subjects/family_subject.h"
@@ -118,6 +119,38 @@ TEST(BenchErrors, MissingAndUnexpectedPixelsAddUpWhereverTheyAre) {
   EXPECT_EQ(count->wrong, 12u + 1u);
 }
 
+TEST(BenchErrors, TheMoreBitsTheNearerToTheRealGeometry) {
+  BenchOptions options = quick({"small10"}, {"plain:bits0", "plain:bits4", "plain:bits12", "plain:bits16", "edgecase"});
+  const auto rows = bench(options);
+  ASSERT_TRUE(rows) << rows.error().message;
+  const auto real = [&](const char* name) {
+    const auto row = std::ranges::find(*rows, name, &BenchRow::rasterizer);
+    return row->wrong_per_million_real.value();
+  };
+  EXPECT_EQ(real("edgecase"), real("plain"));
+  // 16 times the distance, 16 times the pixels, roughly; whole pixels are too coarse for such a law.
+  EXPECT_GT(real("plain:bits0"), 3 * real("plain:bits4"));
+  EXPECT_NEAR(real("plain:bits4") / real("plain"), 16, 8);
+  EXPECT_GT(real("plain"), 4 * real("plain:bits12"));
+  EXPECT_GE(real("plain:bits12"), real("plain:bits16"));
+  EXPECT_FALSE(bench(quick({"full"}, {"edgecase"}))->front().wrong_per_million_real);
+}
+
+TEST(BenchInstructions, AreCountedWhereTheMachineDoes) {
+  volatile int sum = 0;
+  const auto loop = [&](int times) {
+    return [&sum, times] {
+      for (int i = 0; i < times; ++i) sum = sum + 1;
+    };
+  };
+  const auto few = count_instructions(loop(1'000)), many = count_instructions(loop(1'000'000));
+  EXPECT_EQ(sum, 1'001'000);
+  ASSERT_EQ(few.has_value(), many.has_value());
+  if (few) {
+    EXPECT_GT(*many, 100 * *few);
+  }
+}
+
 TEST(BenchPlain, IsExactInNarrowAndInWideSteps) {
   using F = rasterizer::Format16_8;
   const auto target = *rasterizer::Target::make(90, 50);
@@ -159,7 +192,7 @@ TEST(Bench, MeasuresWhatWasAskedForBesidePlain) {
   EXPECT_EQ(rows->front().rasterizer, "plain");
   EXPECT_EQ(rows->front().workload, "small10");
   EXPECT_EQ(rows->front().ratio_to_plain, 1);
-  EXPECT_EQ(rows->front().triangles, 20'000u);
+  EXPECT_EQ(rows->front().triangles, 10'000u);
   EXPECT_EQ((*rows)[4].rasterizer, "edgecase:trapezoid");
   EXPECT_EQ((*rows)[4].workload, "ties");
 }
@@ -173,7 +206,7 @@ TEST(Bench, ASubjectIsFoundByTheCallersFactory) {
   ASSERT_TRUE(rows) << rows.error().message;
   ASSERT_EQ(rows->size(), 2u);
   EXPECT_EQ((*rows)[1].rasterizer, "edgecase:quads");
-  EXPECT_EQ((*rows)[1].triangles, 4'000u);
+  EXPECT_EQ((*rows)[1].triangles, 2'000u);
   EXPECT_EQ((*rows)[1].clock, Clock::wall);
   EXPECT_LT((*rows)[1].target.width, 64);
   EXPECT_EQ((*rows)[0].target, (Extent{1920, 1080}));
@@ -251,13 +284,29 @@ TEST(BenchOutput, JsonHasARowForEach) {
   EXPECT_EQ(row.at("spread"), 0.02);
   EXPECT_EQ(row.at("ratio_to_plain"), 0.5);
   EXPECT_EQ(row.at("wrong_per_million"), 25);
+  EXPECT_TRUE(row.at("wrong_per_million_real").is_null());
+  EXPECT_TRUE(row.at("instructions_per_triangle").is_null());
+  auto rows = some_rows();
+  rows[1].wrong_per_million_real = 24;
+  rows[1].instructions_per_triangle = 320;
+  const auto full = nlohmann::json::parse(bench_json(rows))["rows"][1];
+  EXPECT_EQ(full.at("wrong_per_million_real"), 24);
+  EXPECT_EQ(full.at("instructions_per_triangle"), 320);
 }
 
 TEST(BenchOutput, TheTableHasEveryRasterizer) {
   const std::string table = bench_table(some_rows());
   EXPECT_THAT(table, HasSubstr("inexact:float"));
   EXPECT_THAT(table, HasSubstr("300000"));
-  EXPECT_THAT(table, HasSubstr("wrong px per million"));
+  EXPECT_THAT(table, HasSubstr("wrong px per million, by the rules"));
+  // What no row has is no section.
+  EXPECT_THAT(table, testing::Not(HasSubstr("real geometry")));
+  EXPECT_THAT(table, testing::Not(HasSubstr("subpixel bits")));
+  auto rows = some_rows();
+  rows[1].rasterizer = "plain:bits4";
+  rows[1].wrong_per_million_real = 24;
+  EXPECT_THAT(bench_table(rows), HasSubstr("real geometry"));
+  EXPECT_THAT(bench_table(rows), testing::ContainsRegex("full +4 +300000 +0.5 +25 +24\n"));
 }
 
 TEST(BenchOutput, ThePlotIsAPicture) {
