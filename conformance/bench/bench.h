@@ -40,7 +40,8 @@ tl::expected<std::vector<BenchRow>, Error> bench(const BenchOptions& options);
 /// {"rows": [...]}, an object per row with the fields' names as keys, indented.
 std::string bench_json(std::span<const BenchRow> rows);
 
-/// A line per rasterizer and a column per workload: nanoseconds a triangle, the ratio to plain, and the error.
+/// A line per rasterizer and a column per workload: nanoseconds a triangle, the ratio to plain, instructions where they
+/// were counted, and the error by the rules and by the real geometry. Then what a format of fewer bits saves and costs.
 std::string bench_table(std::span<const BenchRow> rows);
 
 }  // namespace edgecase::conformance

@@ -1,8 +1,10 @@
 // Contender: a rasterizer that is timed, and whose error is counted, on a workload.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -18,6 +20,16 @@ namespace edgecase::conformance {
 /// The baseline of every ratio: edge functions stepped from pixel to pixel over the bounding box, a byte per pixel.
 inline constexpr std::string_view kPlain = "plain";
 
+/// The subpixel bits of which speed and error are compared.
+inline constexpr std::array kSubpixelBits{0, 2, 4, 6, 8, 10, 12, 16};
+
+/// The plain loop in the format 16.`bits`: `plain` for 8, the baseline, else `plain:bitsN`.
+std::string plain_name(int bits);
+
+/// Whose time counts: that of the calling thread, which leaves out what other processes took of the processor; the time
+/// that passes; or what the driver itself took, from submission to the last sample (Subject::driver_seconds).
+enum class Clock { thread, wall, driver };
+
 class Contender {
  public:
   virtual ~Contender() = default;
@@ -26,10 +38,14 @@ class Contender {
   virtual std::string name() const = 0;
   /// The instruction set that it was compiled for or has chosen, in lower case; empty if that is not ours to know.
   virtual std::string isa() const = 0;
-  /// Whether the time that counts is that of the calling thread; otherwise it is the time that passes.
-  virtual bool in_this_thread() const { return true; }
-  /// The most triangles that it can be given at once.
-  virtual std::size_t most_triangles() const { return static_cast<std::size_t>(-1); }
+  /// Known after the first draw.
+  virtual Clock clock() const { return Clock::thread; }
+  /// Of all draws so far, for Clock::driver.
+  virtual double driver_seconds() const { return 0; }
+  /// How many of a scene's triangles, from the first on, it can be given at once.
+  virtual std::size_t most_triangles(const Scene& scene) const { return scene.triangles.size(); }
+  /// What it draws on, if that is not the scene's target.
+  virtual std::optional<Extent> target() const { return std::nullopt; }
 
   /// Takes the triangles over in the form it draws from; not timed. An error if it cannot draw them.
   virtual tl::expected<void, Error> prepare(const Scene& scene) = 0;
@@ -41,11 +57,15 @@ class Contender {
   virtual void cover(std::size_t i, MutableMaskView mask) = 0;
 };
 
-/// Everything that needs no driver: plain, the family, the inexact arithmetics.
+/// Everything that needs no driver: plain, the fast path, best and by instruction set, the family, the inexact
+/// arithmetics, and plain in other formats.
 std::vector<std::unique_ptr<Contender>> built_in_contenders();
 
-/// A subject as a contender. It draws a mask per triangle, and the time is that of all its work, clearing included:
-/// comparable with other subjects', an upper bound beside the rasterizers that share one mask.
+/// A subject as a contender. It draws every triangle into a mask of its own, on the smallest target that each triangle
+/// of the scene fits on, to which it is moved by whole pixels: on the whole screen, making and reading the masks would
+/// be all the time. What is timed is the driver, where it has a clock of its own, and else all of the subject's work.
+/// Either way that is another job than a union in one mask: such times are comparable with each other, and beside
+/// the rasterizers' an upper bound.
 std::unique_ptr<Contender> make_subject_contender(std::unique_ptr<Subject> subject);
 
 }  // namespace edgecase::conformance

@@ -10,6 +10,8 @@
 #include <map>
 #include <utility>
 
+#include "conformance/bench/geometry.h"
+#include "conformance/bench/instructions.h"
 #include "conformance/oracle/oracle.h"
 #include "rasterizer/rasterizer.h"
 #include "rasterizer/scalar.h"
@@ -62,17 +64,20 @@ tl::expected<std::vector<std::vector<double>>, Error> time_draws(
       for (auto _ : state) {
         state.PauseTiming();
         contender->clear();
+        const double before = contender->driver_seconds();
         state.ResumeTiming();
         if (const auto drawn = contender->draw(); !drawn) {
           state.SkipWithError(drawn.error().message.c_str());
           break;
         }
         benchmark::ClobberMemory();
+        if (contender->clock() == Clock::driver) state.SetIterationTime(contender->driver_seconds() - before);
       }
     };
     auto* const registered = benchmark::RegisterBenchmark(std::to_string(i).c_str(), run);
     registered->Repetitions(static_cast<int>(effort.repetitions))->MinTime(effort.seconds_per_repetition);
-    if (!contenders[i]->in_this_thread()) registered->UseRealTime();
+    if (contenders[i]->clock() == Clock::wall) registered->UseRealTime();
+    if (contenders[i]->clock() == Clock::driver) registered->UseManualTime();
   }
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector, "all");
@@ -80,7 +85,7 @@ tl::expected<std::vector<std::vector<double>>, Error> time_draws(
   if (!collector.error.empty()) return tl::unexpected(Error{ErrorKind::subject, collector.error});
   std::vector<std::vector<double>> seconds;
   for (std::size_t i = 0; i < contenders.size(); ++i) {
-    seconds.push_back(contenders[i]->in_this_thread() ? collector.cpu_seconds[i] : collector.real_seconds[i]);
+    seconds.push_back(contenders[i]->clock() == Clock::thread ? collector.cpu_seconds[i] : collector.real_seconds[i]);
   }
   return seconds;
 }
@@ -153,7 +158,7 @@ Statistics statistics(std::vector<double> values) {
   return {median, (quantile(0.75) - quantile(0.25)) / median};
 }
 
-tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& scene) {
+tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& scene, Truth truth) {
   const MaskLayout layout(scene.setting);
   // Between triangles only the rows that the triangle can reach are looked at and cleared; what a contender put
   // elsewhere stays, and is counted at the end.
@@ -163,7 +168,11 @@ tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& 
   ErrorCount count;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     contender.cover(i, observed);
-    if (auto added = expectation.add(i); !added) return tl::unexpected(added.error());
+    if (truth == Truth::real_geometry) {
+      cover_geometry(scene.triangles[i], scene.setting.target, expected);
+    } else if (auto added = expectation.add(i); !added) {
+      return tl::unexpected(added.error());
+    }
     const auto [first, last] = rows_of(scene.triangles[i], layout.target.height);
     for (std::size_t k = first * layout.row_words(); k < last * layout.row_words(); ++k) {
       count.wrong += static_cast<std::uint64_t>(std::popcount(observed[k] ^ expected[k]));
@@ -175,42 +184,91 @@ tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& 
   return count;
 }
 
+namespace {
+
+/// Prepares the contender for the scene and has it draw once.
+tl::expected<void, Error> warm_up(Contender& contender, const Scene& scene) {
+  if (auto prepared = contender.prepare(scene); !prepared) return prepared;
+  contender.clear();
+  return contender.draw();
+}
+
+double wrong_per_million(const ErrorCount& count) {
+  return count.covered == 0 ? 0 : static_cast<double>(count.wrong) / static_cast<double>(count.covered) * 1e6;
+}
+
+/// The share of a workload's triangles that is judged by the real geometry, at most, and how many.
+constexpr std::size_t kRealShare = 5;
+constexpr std::size_t kMostReal = 20'000;
+
+/// Nothing for a workload without real geometry.
+tl::expected<std::optional<double>, Error> real_error(const Workload& workload, std::size_t wanted, std::uint64_t seed,
+                                                      Contender& contender) {
+  const std::size_t count = std::min({wanted, workload.triangles / kRealShare, kMostReal});
+  auto scene = make_off_grid(workload, count, seed);
+  if (!scene) return std::nullopt;
+  scene->triangles.resize(std::min(scene->triangles.size(), contender.most_triangles(*scene)));
+  if (auto drawn = warm_up(contender, *scene); !drawn) return tl::unexpected(drawn.error());
+  const auto counted = count_errors(contender, *scene, Truth::real_geometry);
+  if (!counted) return tl::unexpected(counted.error());
+  return wrong_per_million(*counted);
+}
+
+/// Of one draw of a contender that has drawn before.
+tl::expected<std::optional<double>, Error> instructions_of(Contender& contender, std::size_t triangles) {
+  if (contender.clock() != Clock::thread) return std::nullopt;
+  contender.clear();
+  tl::expected<void, Error> drawn;
+  const auto count = count_instructions([&] { drawn = contender.draw(); });
+  if (!drawn) return tl::unexpected(drawn.error());
+  if (!count) return std::nullopt;
+  return static_cast<double>(*count) / static_cast<double>(triangles);
+}
+
+}  // namespace
+
 tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
                                                    const std::vector<std::unique_ptr<Contender>>& contenders,
                                                    const Effort& effort, std::uint64_t seed) {
-  std::vector<std::size_t> triangles;
-  std::vector<ErrorCount> errors;
+  std::vector<BenchRow> rows;
+  std::vector<std::uint64_t> covered;
   const std::size_t wanted = std::max<std::size_t>(workload.triangles / effort.divisor, 4);
-  if (auto judged = judge_expectation(make_workload(workload, wanted, seed)); !judged) {
-    return tl::unexpected(judged.error());
-  }
+  const Scene whole = make_workload(workload, wanted, seed);
+  if (auto judged = judge_expectation(whole); !judged) return tl::unexpected(judged.error());
   for (const auto& contender : contenders) {
-    const Scene scene = make_workload(workload, std::min(wanted, contender->most_triangles()), seed);
-    triangles.push_back(scene.triangles.size());
-    if (auto prepared = contender->prepare(scene); !prepared) return tl::unexpected(prepared.error());
-    contender->clear();
-    if (auto drawn = contender->draw(); !drawn) return tl::unexpected(drawn.error());
+    const auto real = real_error(workload, wanted, seed, *contender);
+    if (!real) return tl::unexpected(real.error());
+    Scene scene = whole;
+    if (const std::size_t most = contender->most_triangles(scene); most < scene.triangles.size()) {
+      scene = make_workload(workload, most, seed);
+    }
+    if (auto drawn = warm_up(*contender, scene); !drawn) return tl::unexpected(drawn.error());
     const auto counted = count_errors(*contender, scene);
     if (!counted) return tl::unexpected(counted.error());
-    errors.push_back(*counted);
+    const auto instructions = instructions_of(*contender, scene.triangles.size());
+    if (!instructions) return tl::unexpected(instructions.error());
+    BenchRow& row = rows.emplace_back();
+    row.rasterizer = contender->name();
+    row.isa = contender->isa();
+    row.workload = workload.name;
+    row.clock = contender->clock();
+    row.target = contender->target().value_or(scene.setting.target);
+    row.triangles = scene.triangles.size();
+    row.wrong_per_million = wrong_per_million(*counted);
+    row.wrong_per_million_real = *real;
+    row.instructions_per_triangle = *instructions;
+    covered.push_back(counted->covered);
   }
   const auto seconds = time_draws(contenders, effort);
   if (!seconds) return tl::unexpected(seconds.error());
 
-  std::vector<BenchRow> rows;
-  for (std::size_t i = 0; i < contenders.size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const Statistics draw = statistics((*seconds)[i]);
-    const double count = static_cast<double>(triangles[i]), covered = static_cast<double>(errors[i].covered);
-    BenchRow& row = rows.emplace_back();
-    row.rasterizer = contenders[i]->name();
-    row.isa = contenders[i]->isa();
-    row.workload = workload.name;
-    row.triangles = triangles[i];
-    row.ns_per_triangle = draw.median / count * 1e9;
+    BenchRow& row = rows[i];
+    row.ns_per_triangle = draw.median / static_cast<double>(row.triangles) * 1e9;
     row.spread = draw.spread;
     row.ratio_to_plain = rows.front().ns_per_triangle / row.ns_per_triangle;
-    row.wrong_per_million = covered == 0 ? 0 : static_cast<double>(errors[i].wrong) / covered * 1e6;
-    row.covered_px_per_second = covered / draw.median;
+    row.covered_px_per_second = static_cast<double>(covered[i]) / draw.median;
   }
   return rows;
 }

@@ -2,16 +2,19 @@
 //
 // Time. Google Benchmark runs every contender's draw() several times over, the repetitions of all contenders shuffled,
 // so that a slow phase of the machine meets all of them; a ratio counts only within one such run. Masks are cleared
-// outside the time. Rasterizers that work in the calling thread are given that thread's time, which leaves out what
-// other processes took of the processor; subjects, which may have threads of their own, the time that passed.
+// outside the time. Whose time that is, see Clock.
 //
 // Error. Every triangle is drawn on its own and held against the scalar rasterizer, so that a missing and an
-// unexpected pixel never cancel; one triangle in 64 of those answers is held against the oracle by definition.
+// unexpected pixel never cancel; one triangle in 64 of those answers is held against the oracle by definition. That is
+// the error against the rules, of which snapping to 8 subpixel bits is a part: the vertices are on that grid. The error
+// against the real geometry is another one: the vertices lie between the points of the grid, and what the unsnapped
+// triangle covers is expected. Who snaps as the rules say has some.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -33,6 +36,12 @@ struct BenchRow {
   double ratio_to_plain = 0;     ///< how many times as fast as the plain loop; above 1 is faster
   double wrong_per_million = 0;  ///< missing and unexpected pixels, over the pixels that are to be covered
   double covered_px_per_second = 0;
+  Clock clock = Clock::thread;
+  Extent target{};  ///< that it drew on
+  /// Against the real geometry; nothing for workloads that have none, see make_off_grid.
+  std::optional<double> wrong_per_million_real{};
+  /// Of one draw, outside the kernel; nothing if the machine does not count them, or not in this thread.
+  std::optional<double> instructions_per_triangle{};
 };
 
 struct Effort {
@@ -41,7 +50,7 @@ struct Effort {
   /// Divides the number of the workload's triangles.
   std::size_t divisor;
 };
-inline constexpr Effort kQuick{5, 0.01, 50};
+inline constexpr Effort kQuick{3, 0.01, 100};
 inline constexpr Effort kThorough{9, 0.05, 1};
 
 /// A row per contender, in their order. The first of them must be the plain loop.
@@ -56,12 +65,15 @@ struct Statistics {
 };
 Statistics statistics(std::vector<double> values);
 
+/// What a pixel is expected to be.
+enum class Truth { rules, real_geometry };
+
 /// Pixels that `contender`, prepared for `scene` and drawn, covers wrongly, each triangle on its own, and pixels that
 /// are to be covered.
 struct ErrorCount {
   std::uint64_t wrong = 0;
   std::uint64_t covered = 0;
 };
-tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& scene);
+tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& scene, Truth truth = Truth::rules);
 
 }  // namespace edgecase::conformance

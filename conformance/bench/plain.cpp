@@ -8,8 +8,6 @@
 namespace edgecase::conformance {
 namespace {
 
-using Format = rasterizer::Format16_8;
-
 template <class Integer>
 struct Steps {
   Integer a[3], b[3], c[3];
@@ -53,8 +51,13 @@ EDGECASE_CLONES void step64(const Steps<std::int64_t>& edges, const Box& box, st
 
 }  // namespace
 
-void cover_plain(const rasterizer::FixedTriangle<Format>& triangle, const rasterizer::Target& target,
-                 std::uint8_t* pixels) {
+template <int Bits>
+void cover_plain(const rasterizer::FixedTriangle<rasterizer::Format<16, Bits>>& triangle,
+                 const rasterizer::Target& target, std::uint8_t* pixels) {
+  using Format = rasterizer::Format<16, Bits>;
+  // Two values, each times up to 2^14 columns or rows, and another are added below.
+  static_assert(rasterizer::Edge<Format>::Step::kBits + 14 + 2 <= 64 &&
+                rasterizer::Edge<Format>::Value::kBits + 2 <= 64);
   const auto box = rasterizer::pixel_box<Format>(triangle, rasterizer::View<>{target});
   const auto turned = rasterizer::turned_clockwise<Format>(triangle);
   if (!box || !turned) return;
@@ -81,6 +84,19 @@ void cover_plain(const rasterizer::FixedTriangle<Format>& triangle, const raster
   }
   step32(narrow, size, first);
 }
+
+#define EDGECASE_PLAIN(bits)                                                                      \
+  template void cover_plain<bits>(const rasterizer::FixedTriangle<rasterizer::Format<16, bits>>&, \
+                                  const rasterizer::Target&, std::uint8_t*)
+EDGECASE_PLAIN(0);
+EDGECASE_PLAIN(2);
+EDGECASE_PLAIN(4);
+EDGECASE_PLAIN(6);
+EDGECASE_PLAIN(8);
+EDGECASE_PLAIN(10);
+EDGECASE_PLAIN(12);
+EDGECASE_PLAIN(16);
+#undef EDGECASE_PLAIN
 
 std::string plain_isa() {
 #if defined(__x86_64__)

@@ -16,8 +16,12 @@ namespace edgecase::conformance {
 ///
 /// So that it is no straw man, it is compiled for several instruction sets and runs the widest that the machine has,
 /// has no branch in its inner loop, so that the compiler can vectorize it, and steps in 32 bits where these suffice.
-void cover_plain(const rasterizer::FixedTriangle<rasterizer::Format16_8>& triangle, const rasterizer::Target& target,
-                 std::uint8_t* pixels);
+///
+/// For the formats 16.0, 16.2, 16.4, 16.6, 16.8, 16.10, 16.12 and 16.16; the fewer bits, the more triangles need no
+/// more than 32.
+template <int Bits>
+void cover_plain(const rasterizer::FixedTriangle<rasterizer::Format<16, Bits>>& triangle,
+                 const rasterizer::Target& target, std::uint8_t* pixels);
 
 /// The instruction set that cover_plain runs with on this machine.
 std::string plain_isa();

@@ -84,7 +84,8 @@ std::string labels(std::vector<const BenchRow*> rows, const Range& range) {
   };
 
   std::ranges::sort(rows, {}, [](const BenchRow* row) { return row->ns_per_triangle; });
-  const double factor = std::pow(range.right / range.left, kUprightShare);
+  const double share = std::min(kUprightShare, 1 / (static_cast<double>(rows.size()) + 1));
+  const double factor = std::pow(range.right / range.left, share);
   std::vector<double> x;
   for (const BenchRow* row : rows) {
     x.push_back(x.empty() ? row->ns_per_triangle : std::max(row->ns_per_triangle, x.back() * factor));
@@ -129,8 +130,10 @@ std::string x_tics(const Range& range) {
 std::string panel(std::span<const BenchRow> rows, const std::string& workload) {
   std::vector<const BenchRow*> here;
   for (const BenchRow& row : rows) {
-    if (row.workload == workload) here.push_back(&row);
+    // Other formats of the plain loop have a table of their own; here they would hide the rest.
+    if (row.workload == workload && !row.rasterizer.starts_with(fmt::format("{}:", kPlain))) here.push_back(&row);
   }
+  if (here.empty()) return "";
   const auto [fastest, slowest] =
       std::ranges::minmax(here, {}, [](const BenchRow* row) { return row->ns_per_triangle; });
   // Room for the labels: a sixth of the axis on the left of the points, a third on their right.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conformance/bench/bench.h"
+#include "conformance/bench/contender.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -17,6 +18,23 @@ std::vector<std::string> distinct(std::span<const BenchRow> rows, std::string Be
   return values;
 }
 
+std::string_view name_of(Clock clock) {
+  switch (clock) {
+    case Clock::thread:
+      return "thread";
+    case Clock::wall:
+      return "wall";
+    case Clock::driver:
+      return "driver";
+  }
+  return {};
+}
+
+nlohmann::ordered_json or_null(const std::optional<double>& value) {
+  if (value) return *value;
+  return nullptr;
+}
+
 /// Three significant digits, or a whole number.
 std::string three_digits(double value) {
   if (value == 0) return "0";
@@ -24,7 +42,9 @@ std::string three_digits(double value) {
   return value >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
-std::string section(std::span<const BenchRow> rows, const std::string& title, double BenchRow::*field) {
+/// A line per rasterizer and a column per workload. Empty if none has a value.
+template <class Field>
+std::string section(std::span<const BenchRow> rows, const std::string& title, Field field) {
   const auto names = distinct(rows, &BenchRow::rasterizer);
   const auto columns = distinct(rows, &BenchRow::workload);
   std::size_t width = title.size();
@@ -32,17 +52,48 @@ std::string section(std::span<const BenchRow> rows, const std::string& title, do
   std::string text = fmt::format("{:<{}}", title, width);
   for (const std::string& column : columns) text += fmt::format(" {:>10}", column);
   text += '\n';
+  bool any = false;
   for (const std::string& name : names) {
     text += fmt::format("{:<{}}", name, width);
     for (const std::string& column : columns) {
       const auto row = std::ranges::find_if(rows, [&](const BenchRow& candidate) {
         return candidate.rasterizer == name && candidate.workload == column;
       });
-      text += fmt::format(" {:>10}", row == rows.end() ? "-" : three_digits((*row).*field));
+      const std::optional<double> value = row == rows.end() ? std::nullopt : std::optional<double>((*row).*field);
+      any |= value.has_value();
+      text += fmt::format(" {:>10}", value ? three_digits(*value) : "-");
     }
     text += '\n';
   }
-  return text;
+  return any ? text + "\n" : "";
+}
+
+/// The subpixel bits of the plain loop's format, if that is what the row is of.
+std::optional<int> bits_of_plain(const BenchRow& row) {
+  for (const int bits : kSubpixelBits) {
+    if (row.rasterizer == plain_name(bits)) return bits;
+  }
+  return std::nullopt;
+}
+
+/// What a narrower format saves and costs: a line per format and workload. Empty unless there is more than one format.
+std::string formats_section(std::span<const BenchRow> rows) {
+  std::string text = fmt::format("{:<8} {:>4} {:>10} {:>16} {:>16} {:>16}\n", "workload", "bits", "ns", "times as fast",
+                                 "wrong, by rules", "wrong, really");
+  bool any = false;
+  for (const std::string& workload : distinct(rows, &BenchRow::workload)) {
+    for (const int bits : kSubpixelBits) {
+      for (const BenchRow& row : rows) {
+        if (row.workload != workload || bits_of_plain(row) != bits) continue;
+        any |= bits != 8;
+        text +=
+            fmt::format("{:<8} {:>4} {:>10} {:>16} {:>16} {:>16}\n", workload, bits, three_digits(row.ns_per_triangle),
+                        three_digits(row.ratio_to_plain), three_digits(row.wrong_per_million),
+                        row.wrong_per_million_real ? three_digits(*row.wrong_per_million_real) : "-");
+      }
+    }
+  }
+  return any ? "The plain loop in formats of fewer and of more subpixel bits than the rules' 8\n" + text : "";
 }
 
 }  // namespace
@@ -58,16 +109,23 @@ std::string bench_json(std::span<const BenchRow> rows) {
                     {"spread", row.spread},
                     {"ratio_to_plain", row.ratio_to_plain},
                     {"wrong_per_million", row.wrong_per_million},
-                    {"covered_px_per_second", row.covered_px_per_second}});
+                    {"wrong_per_million_real", or_null(row.wrong_per_million_real)},
+                    {"instructions_per_triangle", or_null(row.instructions_per_triangle)},
+                    {"covered_px_per_second", row.covered_px_per_second},
+                    {"clock", name_of(row.clock)},
+                    {"target", {row.target.width, row.target.height}}});
   }
   return nlohmann::ordered_json{{"rows", list}}.dump(2) + "\n";
 }
 
 std::string bench_table(std::span<const BenchRow> rows) {
-  return section(rows, "ns per triangle, median", &BenchRow::ns_per_triangle) + "\n" +
-         section(rows, "spread: quartiles / median", &BenchRow::spread) + "\n" +
-         section(rows, "times as fast as plain", &BenchRow::ratio_to_plain) + "\n" +
-         section(rows, "wrong px per million", &BenchRow::wrong_per_million);
+  return section(rows, "ns per triangle, median", &BenchRow::ns_per_triangle) +
+         section(rows, "spread: quartiles / median", &BenchRow::spread) +
+         section(rows, "times as fast as plain", &BenchRow::ratio_to_plain) +
+         section(rows, "instructions per triangle", &BenchRow::instructions_per_triangle) +
+         section(rows, "wrong px per million, by the rules", &BenchRow::wrong_per_million) +
+         section(rows, "wrong px per million, by the real geometry", &BenchRow::wrong_per_million_real) +
+         formats_section(rows);
 }
 
 }  // namespace edgecase::conformance

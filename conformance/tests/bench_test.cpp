@@ -11,9 +11,11 @@
 #include <random>
 #include <set>
 
+#include "conformance/bench/instructions.h"
 #include "conformance/bench/plain.h"
 #include "conformance/bench/plot.h"
 #include "conformance/subjects/family_subject.h"
+#include "rasterizer/fast/fast.h"
 #include "rasterizer/scalar.h"
 
 namespace edgecase::conformance {
@@ -48,6 +50,8 @@ TEST(BenchContenders, ThoseThatAreExactCountNoErrorsOnAnyWorkload) {
     SCOPED_TRACE(contender->name());
     EXPECT_TRUE(names.insert(contender->name()).second);
     if (contender->name().starts_with("inexact:")) continue;
+    if (testing::Matches(testing::AnyOf("plain:bits0", "plain:bits2", "plain:bits4", "plain:bits6"))(contender->name()))
+      continue;
     for (const Workload& workload : workloads()) {
       SCOPED_TRACE(workload.name);
       const Scene scene = make_workload(workload, workload.name == "full" ? 4 : workload.name == "sliver" ? 20 : 300);
@@ -60,7 +64,24 @@ TEST(BenchContenders, ThoseThatAreExactCountNoErrorsOnAnyWorkload) {
       EXPECT_EQ(count->wrong, 0u);
     }
   }
-  EXPECT_THAT(names, testing::IsSupersetOf({"plain", "edgecase:larrabee", "inexact:float"}));
+  EXPECT_THAT(names, testing::IsSupersetOf({"plain", "edgecase", "edgecase:portable", "edgecase:larrabee",
+                                            "inexact:float", "plain:bits0", "plain:bits16"}));
+}
+
+TEST(BenchContenders, TheFastPathSaysWhichInstructionSetItRuns) {
+  const auto isas = rasterizer::available_isas();
+  std::size_t found = 0;
+  for (const auto& contender : built_in_contenders()) {
+    if (contender->name() == "edgecase") {
+      EXPECT_EQ(contender->isa(), rasterizer::name_of(isas.back()));
+    }
+    for (const rasterizer::Isa isa : isas) {
+      if (contender->name() != "edgecase:" + std::string(rasterizer::name_of(isa))) continue;
+      EXPECT_EQ(contender->isa(), rasterizer::name_of(isa));
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, isas.size());
 }
 
 TEST(BenchContenders, InexactOnesCountWrongPixels) {
@@ -98,6 +119,38 @@ TEST(BenchErrors, MissingAndUnexpectedPixelsAddUpWhereverTheyAre) {
   EXPECT_EQ(count->wrong, 12u + 1u);
 }
 
+TEST(BenchErrors, TheMoreBitsTheNearerToTheRealGeometry) {
+  BenchOptions options = quick({"small10"}, {"plain:bits0", "plain:bits4", "plain:bits12", "plain:bits16", "edgecase"});
+  const auto rows = bench(options);
+  ASSERT_TRUE(rows) << rows.error().message;
+  const auto real = [&](const char* name) {
+    const auto row = std::ranges::find(*rows, name, &BenchRow::rasterizer);
+    return row->wrong_per_million_real.value();
+  };
+  EXPECT_EQ(real("edgecase"), real("plain"));
+  // 16 times the distance, 16 times the pixels, roughly; whole pixels are too coarse for such a law.
+  EXPECT_GT(real("plain:bits0"), 3 * real("plain:bits4"));
+  EXPECT_NEAR(real("plain:bits4") / real("plain"), 16, 8);
+  EXPECT_GT(real("plain"), 4 * real("plain:bits12"));
+  EXPECT_GE(real("plain:bits12"), real("plain:bits16"));
+  EXPECT_FALSE(bench(quick({"full"}, {"edgecase"}))->front().wrong_per_million_real);
+}
+
+TEST(BenchInstructions, AreCountedWhereTheMachineDoes) {
+  volatile int sum = 0;
+  const auto loop = [&](int times) {
+    return [&sum, times] {
+      for (int i = 0; i < times; ++i) sum = sum + 1;
+    };
+  };
+  const auto few = count_instructions(loop(1'000)), many = count_instructions(loop(1'000'000));
+  EXPECT_EQ(sum, 1'001'000);
+  ASSERT_EQ(few.has_value(), many.has_value());
+  if (few) {
+    EXPECT_GT(*many, 100 * *few);
+  }
+}
+
 TEST(BenchPlain, IsExactInNarrowAndInWideSteps) {
   using F = rasterizer::Format16_8;
   const auto target = *rasterizer::Target::make(90, 50);
@@ -115,7 +168,7 @@ TEST(BenchPlain, IsExactInNarrowAndInWideSteps) {
     rasterizer::FixedTriangle<F> triangle;
     for (auto& v : triangle) v = vertex();
     std::vector<std::uint8_t> observed(90 * 50), expected(90 * 50);
-    cover_plain(triangle, target, observed.data());
+    cover_plain<8>(triangle, target, observed.data());
     rasterizer::cover_scalar<F>(triangle, rasterizer::View<>{target}, [&](int y, int word, std::uint64_t bits) {
       for (int bit = 0; bit < 64; ++bit) {
         if (bits >> bit & 1) expected.at(static_cast<std::size_t>(y * 90 + word * 64 + bit)) = 1;
@@ -139,7 +192,7 @@ TEST(Bench, MeasuresWhatWasAskedForBesidePlain) {
   EXPECT_EQ(rows->front().rasterizer, "plain");
   EXPECT_EQ(rows->front().workload, "small10");
   EXPECT_EQ(rows->front().ratio_to_plain, 1);
-  EXPECT_EQ(rows->front().triangles, 20'000u);
+  EXPECT_EQ(rows->front().triangles, 10'000u);
   EXPECT_EQ((*rows)[4].rasterizer, "edgecase:trapezoid");
   EXPECT_EQ((*rows)[4].workload, "ties");
 }
@@ -153,8 +206,42 @@ TEST(Bench, ASubjectIsFoundByTheCallersFactory) {
   ASSERT_TRUE(rows) << rows.error().message;
   ASSERT_EQ(rows->size(), 2u);
   EXPECT_EQ((*rows)[1].rasterizer, "edgecase:quads");
-  EXPECT_EQ((*rows)[1].triangles, 256u);
+  EXPECT_EQ((*rows)[1].triangles, 2'000u);
+  EXPECT_EQ((*rows)[1].clock, Clock::wall);
+  EXPECT_LT((*rows)[1].target.width, 64);
+  EXPECT_EQ((*rows)[0].target, (Extent{1920, 1080}));
   EXPECT_EQ((*rows)[1].wrong_per_million, 0);
+}
+
+/// Draws what it should, and says that its driver took a millisecond a draw.
+class TimedSubject : public Subject {
+ public:
+  const SubjectInfo& info() const override { return drawing_->info(); }
+  tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override {
+    seconds_ += 1e-3;
+    return drawing_->draw(scene, masks);
+  }
+  double driver_seconds() const override { return seconds_; }
+
+ private:
+  std::unique_ptr<Subject> drawing_ = make_family_subject("quads");
+  double seconds_ = 0;
+};
+
+TEST(Bench, ADriversOwnClockCounts) {
+  BenchOptions options = quick({"large20k", "full"}, {"timed"});
+  options.make_subject = [](const std::string&) -> tl::expected<std::unique_ptr<Subject>, Error> {
+    return std::make_unique<TimedSubject>();
+  };
+  const auto rows = bench(options);
+  ASSERT_TRUE(rows) << rows.error().message;
+  ASSERT_EQ(rows->size(), 4u);
+  for (const std::size_t i : {1u, 3u}) {
+    const BenchRow& row = (*rows)[i];
+    EXPECT_EQ(row.clock, Clock::driver);
+    EXPECT_NEAR(row.ns_per_triangle, 1e6 / static_cast<double>(row.triangles), 1);
+    EXPECT_EQ(row.wrong_per_million, 0);
+  }
 }
 
 TEST(BenchCommand, BadInputIsOneLineAndAnExitStatus) {
@@ -197,13 +284,29 @@ TEST(BenchOutput, JsonHasARowForEach) {
   EXPECT_EQ(row.at("spread"), 0.02);
   EXPECT_EQ(row.at("ratio_to_plain"), 0.5);
   EXPECT_EQ(row.at("wrong_per_million"), 25);
+  EXPECT_TRUE(row.at("wrong_per_million_real").is_null());
+  EXPECT_TRUE(row.at("instructions_per_triangle").is_null());
+  auto rows = some_rows();
+  rows[1].wrong_per_million_real = 24;
+  rows[1].instructions_per_triangle = 320;
+  const auto full = nlohmann::json::parse(bench_json(rows))["rows"][1];
+  EXPECT_EQ(full.at("wrong_per_million_real"), 24);
+  EXPECT_EQ(full.at("instructions_per_triangle"), 320);
 }
 
 TEST(BenchOutput, TheTableHasEveryRasterizer) {
   const std::string table = bench_table(some_rows());
   EXPECT_THAT(table, HasSubstr("inexact:float"));
   EXPECT_THAT(table, HasSubstr("300000"));
-  EXPECT_THAT(table, HasSubstr("wrong px per million"));
+  EXPECT_THAT(table, HasSubstr("wrong px per million, by the rules"));
+  // What no row has is no section.
+  EXPECT_THAT(table, testing::Not(HasSubstr("real geometry")));
+  EXPECT_THAT(table, testing::Not(HasSubstr("subpixel bits")));
+  auto rows = some_rows();
+  rows[1].rasterizer = "plain:bits4";
+  rows[1].wrong_per_million_real = 24;
+  EXPECT_THAT(bench_table(rows), HasSubstr("real geometry"));
+  EXPECT_THAT(bench_table(rows), testing::ContainsRegex("full +4 +300000 +0.5 +25 +24\n"));
 }
 
 TEST(BenchOutput, ThePlotIsAPicture) {

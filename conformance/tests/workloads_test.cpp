@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "conformance/bench/geometry.h"
+#include "conformance/generators/random.h"
 #include "conformance/oracle/oracle.h"
 
 namespace edgecase::conformance {
@@ -117,6 +120,58 @@ TEST(Workloads, FullCoversTheScreenByEitherDiagonal) {
     EXPECT_EQ(doubled_area(snapped(scene, scene.triangles[first + 1])), std::int64_t{1920} * 1080 * 65536);
   }
   EXPECT_NE(scene.triangles[0], scene.triangles[2]);
+}
+
+TEST(Geometry, IsTheOraclesWhereTheOracleSnapsNothing) {
+  Scene scene;
+  scene.setting.target = {75, 40};
+  scene.rules.subpixel_bits = 16;
+  Random random(41);
+  std::uint64_t covered = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    // Multiples of 1/2, 1/4, .. 2^-16 px: the coarse ones put centres on edges.
+    const int bits = 1 + i % 16;
+    const auto coordinate = [&](int extent) {
+      return std::ldexp(static_cast<float>(random.between(-(4 << bits), (extent + 4) << bits)), -bits);
+    };
+    Triangle triangle;
+    for (Position& p : triangle) {
+      const float x = coordinate(75);
+      p = {x, coordinate(40)};
+    }
+    const MaskLayout layout(scene.setting);
+    std::vector<std::uint64_t> observed(layout.words()), expected(layout.words());
+    cover_geometry(triangle, scene.setting.target, observed);
+    oracle::cover_by_shift(scene.setting, scene.rules, triangle, expected);
+    ASSERT_EQ(observed, expected) << i;
+    for (const std::uint64_t word : observed) covered += static_cast<std::uint64_t>(std::popcount(word));
+  }
+  EXPECT_GT(covered, 1'000'000u);
+}
+
+TEST(Geometry, OffTheGridSnapsToTheWorkload) {
+  for (const Workload& workload : workloads()) {
+    SCOPED_TRACE(workload.name);
+    const auto off = make_off_grid(workload, 2'000);
+    EXPECT_EQ(off.has_value(), workload.name != "full" && workload.name != "ties");
+    if (!off) continue;
+    const Scene on = make_workload(workload, 2'000);
+    std::size_t moved = 0;
+    ASSERT_EQ(off->triangles.size(), on.triangles.size());
+    for (std::size_t i = 0; i < on.triangles.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Position p = off->triangles[i][k];
+        ASSERT_EQ(oracle::snap(off->rules, p), oracle::snap(on.rules, on.triangles[i][k]));
+        ASSERT_EQ(std::ldexp(p.x, kGeometryBits), std::floor(std::ldexp(p.x, kGeometryBits)));
+        moved += p != on.triangles[i][k];
+      }
+    }
+    EXPECT_GT(moved, on.triangles.size() * 3 * 99 / 100);
+    EXPECT_EQ(off->meshes, on.meshes);
+    if (workload.name == "mesh512") {
+      EXPECT_EQ(off->triangles[0][2], off->triangles[1][1]);
+    }
+  }
 }
 
 }  // namespace

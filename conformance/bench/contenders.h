@@ -1,0 +1,41 @@
+// The contenders of each kind; contender.h has the list of them.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "conformance/bench/contender.h"
+#include "rasterizer/fast/fast.h"
+#include "rasterizer/rasterizer.h"
+
+namespace edgecase::conformance {
+
+/// A scene's triangles as rasterizer/ takes them, in the format F.
+template <class F>
+tl::expected<std::vector<rasterizer::FixedTriangle<F>>, Error> snap_all(const Scene& scene) {
+  std::vector<rasterizer::FixedTriangle<F>> snapped(scene.triangles.size());
+  for (std::size_t i = 0; i < snapped.size(); ++i) {
+    const auto& [v0, v1, v2] = scene.triangles[i];
+    const rasterizer::Triangle triangle{{{v0.x, v0.y}, {v1.x, v1.y}, {v2.x, v2.y}}};
+    if (const auto error = rasterizer::snap<F>(triangle, snapped[i], i)) {
+      return tl::unexpected(Error{ErrorKind::bad_input, rasterizer::describe(*error)});
+    }
+  }
+  return snapped;
+}
+
+inline rasterizer::Target target_of(const Setting& setting) {
+  return *rasterizer::Target::make(setting.target.width, setting.target.height);
+}
+
+/// The plain loop by plain_name; `bits` is one of kSubpixelBits.
+std::unique_ptr<Contender> make_plain_contender(int bits = 8);
+
+/// The fast path on one instruction set, all triangles into one strip mask.
+std::unique_ptr<Contender> make_fast_contender(std::string_view name, const rasterizer::FastRasterizer& fast);
+
+}  // namespace edgecase::conformance
