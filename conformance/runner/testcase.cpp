@@ -87,7 +87,7 @@ std::vector<std::uint64_t> may_masks(const Case& file, const Scene& scene) {
 }  // namespace
 
 std::uint64_t Testcase::triangles(std::uint64_t count) const {
-  if (file != nullptr) return file->scene.triangles.size();
+  if (file != nullptr) return triangle_count(file->scene);
   return generator != nullptr ? count : metamorphic_count(count);
 }
 
