@@ -25,7 +25,9 @@ TEST(WindowPosition, DividesByPowersOfTwo) {
   EXPECT_EQ(at({0x1p+124f, 0, 0, 0x1p+126f}), (Position{40, 16}));
   EXPECT_FALSE(at({0, 0, 0, 0x1p+127f}));  // 1/w is subnormal
   EXPECT_FALSE(at({0, 0, 0, 0x1p-127f}));  // w is
-  EXPECT_FALSE(at({0.75f, 0, 0, 3}));      // 1/3 is rounded, 0.75/3 is not
+  // The product with 1/3 as binary32 has it is exact, and no third.
+  EXPECT_FALSE(at({1, 0, 0, 3}, {-32, -16, 64, 32}));
+  EXPECT_TRUE(at({1, 0, 0, 4}, {-32, -16, 64, 32}));
 }
 
 TEST(WindowPosition, TheViewVolumeEndsAtItsBorders) {
