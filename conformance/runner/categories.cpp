@@ -38,9 +38,11 @@ tl::expected<std::vector<Category>, Error> load_categories(const fs::path& cases
     const auto about = table.find(folder);
     found.emplace(folder, about == table.end() ? "" : about->second);
   }
-  for (const Generator& generator : generators()) {
-    std::string& about = found[std::string(generator.category)];
-    if (about.empty()) about = generator.about;
+  for (const auto& all : {generators(), clip_generators()}) {
+    for (const Generator& generator : all) {
+      std::string& about = found[std::string(generator.category)];
+      if (about.empty()) about = generator.about;
+    }
   }
   found.emplace(kMetamorphicCategory, "changes of a scene after which the same has to be covered, whatever that is");
   std::vector<Category> result;
