@@ -74,6 +74,14 @@ void add_exhaust(CLI::App& app, ExhaustOptions& options) {
       ->capture_default_str();
 }
 
+void add_limits(CLI::App& app, LimitsOptions& options) {
+  CLI::App* limits = app.add_subcommand("limits", "Find by bisection how far from the target subjects stay exact");
+  limits->add_option("--subject", options.subjects, "Rasterizer under test; may be repeated")
+      ->type_name("S")
+      ->take_all();
+  limits->add_option("--seed", options.seed, "Seed of the triangles")->type_name("N")->capture_default_str();
+}
+
 void add_show(CLI::App& app, ShowOptions& options) {
   CLI::App* show = app.add_subcommand("show", "Show what a case covers, by the rules or as a subject draws it");
   show->add_option("CASE", options.case_name, "Case: a name or a file")->required();
@@ -109,6 +117,8 @@ int dispatch(int argc, char** argv) {
   ExhaustOptions exhaust_options;
   exhaust_options.jobs = run_options.jobs;
   add_exhaust(app, exhaust_options);
+  LimitsOptions limits_options;
+  add_limits(app, limits_options);
   ShowOptions show_options;
   add_show(app, show_options);
 
@@ -127,6 +137,7 @@ int dispatch(int argc, char** argv) {
   if (*list) return list_command(data, list_what);
   if (app.got_subcommand("bench")) return bench_command(bench_options);
   if (app.got_subcommand("exhaust")) return exhaust_command(data, exhaust_options);
+  if (app.got_subcommand("limits")) return limits_command(limits_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
   return run_command(data, run_options);
 }
