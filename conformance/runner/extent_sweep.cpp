@@ -56,12 +56,12 @@ Scene extent_scene(const Rules& rules, std::int64_t extent, std::uint64_t seed, 
   return scene;
 }
 
-tl::expected<Measured, Error> measure_scene(const Scene& scene, Subject& subject, Reference& reference) {
+tl::expected<Measured, Error> measure_scene(const Scene& scene, Subject& subject, Reference& reference,
+                                            MaskBatch& observed) {
   Measured measured;
   measured.refused = subject.refusal(scene);
   if (measured.refused) return measured;
   MaskBatch must;
-  MaskBatch observed;
   if (auto drawn = subject.draw(scene, observed); !drawn) return tl::unexpected(drawn.error());
   if (auto known = reference.expect(scene, 0, must); !known) return tl::unexpected(known.error());
   compare_masks(MaskLayout(scene.setting), must.data(), {}, observed.data(), 0, measured.comparison);
@@ -74,9 +74,10 @@ tl::expected<Limit, Error> find_limit(Subject& subject, const Rules& rules, Refe
   Limit limit;
   limit.grid_units = std::int64_t{1} << rules.subpixel_bits;
   std::optional<Error> failure;
+  MaskBatch observed;
   // Whether it is exact at `extent`; leaves in `limit` why it is not.
   const auto exact_at = [&](std::int64_t extent) {
-    const auto measured = measure_scene(extent_scene(rules, extent, seed, triangles), subject, reference);
+    const auto measured = measure_scene(extent_scene(rules, extent, seed, triangles), subject, reference, observed);
     if (!measured) failure = measured.error();
     if (!measured || measured->refused || !measured->comparison.all_right()) {
       limit.refused = measured ? measured->refused : std::nullopt;

@@ -30,7 +30,9 @@ struct Measured {
   std::optional<std::string> refused;
 };
 
-tl::expected<Measured, Error> measure_scene(const Scene& scene, Subject& subject, Reference& reference);
+/// Leaves the subject's masks in `observed`.
+tl::expected<Measured, Error> measure_scene(const Scene& scene, Subject& subject, Reference& reference,
+                                            MaskBatch& observed);
 
 struct Limit {
   /// Exact up to this extent in grid units; 0 if not even one pixel.
