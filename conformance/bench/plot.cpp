@@ -214,10 +214,13 @@ std::string plot_program(std::span<const BenchRow> rows, const std::string& path
 }
 
 tl::expected<void, Error> plot_bench(std::span<const BenchRow> rows, const std::string& path) {
+  return run_gnuplot(plot_program(rows, path), path);
+}
+
+tl::expected<void, Error> run_gnuplot(const std::string& program, const std::string& path) {
   // Without gnuplot, writing to the pipe must fail and not end this program.
   auto* const previous = std::signal(SIGPIPE, SIG_IGN);
   std::FILE* const gnuplot = popen("gnuplot >/dev/null 2>&1", "w");
-  const std::string program = plot_program(rows, path);
   int status = -1;
   if (gnuplot != nullptr) {
     std::fwrite(program.data(), 1, program.size(), gnuplot);

@@ -13,6 +13,9 @@ namespace edgecase::conformance {
 /// Writes a PNG to `path`. An error if gnuplot is not installed (ErrorKind::absent) or cannot write there.
 tl::expected<void, Error> plot_bench(std::span<const BenchRow> rows, const std::string& path);
 
+/// Runs a gnuplot program that draws to `path`; the same errors.
+tl::expected<void, Error> run_gnuplot(const std::string& program, const std::string& path);
+
 /// The gnuplot program that does it.
 std::string plot_program(std::span<const BenchRow> rows, const std::string& path);
 

@@ -47,6 +47,18 @@ struct ExhaustOptions {
   int jobs = 1;
 };
 
+struct LimitsOptions {
+  std::vector<std::string> subjects;
+  std::uint64_t seed = 1;
+};
+
+struct StabilityOptions {
+  std::uint64_t count = 5'000;  ///< triangles of each family, at least
+  std::uint64_t seed = 1;
+  std::string json;
+  std::string plot;
+};
+
 struct ShowOptions {
   std::string case_name;
   std::string subject;
@@ -57,6 +69,8 @@ struct ShowOptions {
 int list_command(const DataFiles& data, const std::string& what);
 int run_command(const DataFiles& data, const RunOptions& options);
 int exhaust_command(const DataFiles& data, const ExhaustOptions& options);
+int limits_command(const LimitsOptions& options);
+int stability_command(const StabilityOptions& options);
 int show_command(const DataFiles& data, const ShowOptions& options);
 
 /// Prints `error` to standard error and returns the exit status of its kind.

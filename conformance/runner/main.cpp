@@ -74,6 +74,25 @@ void add_exhaust(CLI::App& app, ExhaustOptions& options) {
       ->capture_default_str();
 }
 
+void add_limits(CLI::App& app, LimitsOptions& options) {
+  CLI::App* limits = app.add_subcommand("limits", "Find by bisection how far from the target subjects stay exact");
+  limits->add_option("--subject", options.subjects, "Rasterizer under test; may be repeated")
+      ->type_name("S")
+      ->take_all();
+  limits->add_option("--seed", options.seed, "Seed of the triangles")->type_name("N")->capture_default_str();
+}
+
+void add_stability(CLI::App& app, StabilityOptions& options) {
+  CLI::App* stability = app.add_subcommand("stability", "Measure what inexact arithmetics cost on hard cases");
+  stability->add_option("--count", options.count, "Triangles of each family, at least")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+      ->capture_default_str();
+  stability->add_option("--seed", options.seed, "Seed of the triangles")->type_name("N")->capture_default_str();
+  stability->add_option("--json", options.json, "Write the table as JSON")->type_name("FILE");
+  stability->add_option("--plot", options.plot, "Draw the table as PNG")->type_name("FILE");
+}
+
 void add_show(CLI::App& app, ShowOptions& options) {
   CLI::App* show = app.add_subcommand("show", "Show what a case covers, by the rules or as a subject draws it");
   show->add_option("CASE", options.case_name, "Case: a name or a file")->required();
@@ -109,6 +128,10 @@ int dispatch(int argc, char** argv) {
   ExhaustOptions exhaust_options;
   exhaust_options.jobs = run_options.jobs;
   add_exhaust(app, exhaust_options);
+  LimitsOptions limits_options;
+  add_limits(app, limits_options);
+  StabilityOptions stability_options;
+  add_stability(app, stability_options);
   ShowOptions show_options;
   add_show(app, show_options);
 
@@ -127,6 +150,8 @@ int dispatch(int argc, char** argv) {
   if (*list) return list_command(data, list_what);
   if (app.got_subcommand("bench")) return bench_command(bench_options);
   if (app.got_subcommand("exhaust")) return exhaust_command(data, exhaust_options);
+  if (app.got_subcommand("limits")) return limits_command(limits_options);
+  if (app.got_subcommand("stability")) return stability_command(stability_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
   return run_command(data, run_options);
 }

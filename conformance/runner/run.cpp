@@ -16,13 +16,6 @@ namespace {
 // Our own rasterizer is judged by the oracle, on every triangle; it stands in for the oracle against everybody else.
 bool is_ours(const std::string& subject) { return subject == "edgecase" || subject.starts_with("edgecase:"); }
 
-tl::expected<Reference, Error> reference_for(const std::string& subject, const std::string& device) {
-  if (is_ours(subject)) return Reference(nullptr);
-  auto fast = make_subject("edgecase");
-  if (!fast) return tl::unexpected(fast.error());
-  return Reference(std::move(*fast), find_transform_model(subject, device));
-}
-
 // Ours snap as the scene asks or as they claim, and what a model predicts in full needs no rule; drivers are found out.
 tl::expected<Rules, Error> rules_of(Subject& subject, const KnownDeviation* deviation) {
   if (subject.info().device.empty() || deviation != nullptr) return subject.info().rules;
@@ -88,6 +81,18 @@ void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
 }
 
 }  // namespace
+
+const std::vector<std::string>& default_subjects() {
+  static const std::vector<std::string> names{"edgecase", "lavapipe", "osmesa-llvmpipe", "osmesa-softpipe"};
+  return names;
+}
+
+tl::expected<Reference, Error> reference_for(const std::string& subject, const std::string& device) {
+  if (is_ours(subject)) return Reference(nullptr);
+  auto fast = make_subject("edgecase");
+  if (!fast) return tl::unexpected(fast.error());
+  return Reference(std::move(*fast), find_transform_model(subject, device));
+}
 
 std::uint64_t planned_triangles(const RunPlan& plan) {
   std::uint64_t triangles = 0;

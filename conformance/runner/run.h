@@ -33,6 +33,12 @@ struct RunResult {
   Trial trial;
 };
 
+/// What a run compares if nothing is named.
+const std::vector<std::string>& default_subjects();
+
+/// What a subject is held against: the oracle, if it is ours; our own, judged by the oracles, if not.
+tl::expected<Reference, Error> reference_for(const std::string& subject, const std::string& device = {});
+
 /// Runs the plan. The results come subject by subject, testcase by testcase, whatever the number of jobs; on_progress
 /// is called from several threads, one at a time. An error is a subject that cannot be had, before anything is drawn.
 tl::expected<std::vector<RunResult>, Error> run(const RunPlan& plan,

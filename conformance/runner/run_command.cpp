@@ -24,9 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a run compares if nothing is named.
-const std::vector<std::string> kDefaultSubjects{"edgecase", "lavapipe", "osmesa-llvmpipe", "osmesa-softpipe"};
-
 // Where pictures go if the user names no folder and there is something to show.
 constexpr const char* kDefaultReport = "edgecase-report";
 
@@ -105,7 +102,7 @@ tl::expected<void, Error> select(const DataFiles& data, const RunOptions& option
 
   RunPlan& plan = selection.plan;
   plan.known_deviations = std::move(*known);
-  for (const std::string& subject : options.subjects.empty() ? kDefaultSubjects : options.subjects) {
+  for (const std::string& subject : options.subjects.empty() ? default_subjects() : options.subjects) {
     if (std::ranges::find(plan.subjects, subject) == plan.subjects.end()) plan.subjects.push_back(subject);
   }
   for (const Case& c : selection.cases) plan.testcases.push_back({&c, nullptr, nullptr});

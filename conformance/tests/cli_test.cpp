@@ -147,6 +147,14 @@ TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
   EXPECT_THAT(caught.out, HasSubstr("before and not after"));
 }
 
+TEST_F(CommandLine, FindsTheLimitsOfSubjects) {
+  const Outcome limits = run("limits --subject edgecase --subject lavapipe");
+  EXPECT_EQ(limits.status, 0) << limits.err;
+  EXPECT_EQ(limits.out, "edgecase: exact to ±32,767.99609375 px; beyond: not accepted\n"
+                        "lavapipe: exact to ±8,192 px; beyond: not accepted\n");
+  expect_one_line(run("limits --subject lavapip"), 2, "lavapip");
+}
+
 TEST_F(CommandLine, UnknownNamesAreBadInputAndProposeTheNearest) {
   expect_one_line(run("run --subject lavapip"), 2, "lavapipe");
   expect_one_line(run("run --generator fam --subject edgecase"), 2, "\"fan\"");
