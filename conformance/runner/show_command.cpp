@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "conformance/runner/case_library.h"
 #include "conformance/runner/commands.h"
 #include "conformance/runner/findings.h"
+#include "conformance/runner/run.h"
 #include "conformance/runner/snap_probe.h"
 #include "conformance/runner/testcase.h"
 #include "conformance/scene/window_position.h"
@@ -27,6 +29,32 @@ MaskBatch by_the_rules(const Scene& scene) {
   return masks;
 }
 
+// Draws a case in clip space with the subject beside what the model of its clipper predicts. Mask i is that of the
+// case's triangle i; the outlines are those of what clipping leaves, and may be more or fewer.
+tl::expected<void, Error> add_clipped(const Case& file, const Scene& scene, Subject& subject, Exhibit& exhibit) {
+  auto reference = reference_for(subject.info().name, subject.info().device);
+  if (!reference) return tl::unexpected(reference.error());
+  if (!reference->judges_clip_space()) {
+    return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot show {}: no model of its clipper is known",
+                                                                  subject.info().name, file.name)});
+  }
+  MaskBatch must;
+  if (auto expected = reference->expect(scene, 0, must); !expected) return expected;
+  MaskBatch observed;
+  if (auto drawn = subject.draw(scene, observed); !drawn) return drawn;
+
+  Scene window = reference->window().scene;
+  const MaskLayout layout(window.setting);
+  window.triangles.resize(std::max(window.triangles.size(), must.size()));
+  exhibit = exhibit_of(window);
+  for (const auto& [from, to] : {std::pair(&must, &exhibit.must), std::pair(&observed, &exhibit.observed)}) {
+    to->reset(layout, window.triangles.size());
+    std::ranges::fill(to->data(), 0);
+    std::ranges::copy(from->data(), to->data().begin());
+  }
+  return {};
+}
+
 // Draws the case with the subject beside what the rules say.
 tl::expected<void, Error> add_subject(const Case& file, const std::string& name, Exhibit& exhibit) {
   auto subject = make_subject(name);
@@ -37,6 +65,7 @@ tl::expected<void, Error> add_subject(const Case& file, const std::string& name,
   const auto refusal = scene ? (*subject)->refusal(*scene) : scene.error();
   if (refusal)
     return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot draw {}: {}", name, file.name, *refusal)});
+  if (scene->clip) return add_clipped(file, *scene, **subject, exhibit);
   exhibit = exhibit_of(*scene);
   exhibit.subject = (*subject)->info().device.empty() ? name : fmt::format("{} ({})", name, (*subject)->info().device);
   exhibit.must = by_the_rules(*scene);

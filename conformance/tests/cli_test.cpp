@@ -1,4 +1,5 @@
-// The program as a script sees it: exit statuses, one clear line for every bad input, and files that are whole or absent.
+// The program as a script sees it: exit statuses, one clear line for every bad input, and files that are whole or
+// absent.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -42,8 +43,8 @@ class CommandLine : public testing::Test {
   ~CommandLine() override { fs::remove_all(folder_); }
 
   Outcome run(const std::string& arguments, const std::string& environment = "") {
-    const std::string command = "cd '" + folder_.string() + "' && " + environment + " '" EDGECASE_PROGRAM "' " + arguments +
-                                " >out.txt 2>err.txt </dev/null";
+    const std::string command = "cd '" + folder_.string() + "' && " + environment + " '" EDGECASE_PROGRAM "' " +
+                                arguments + " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "out.txt"), slurp(folder_ / "err.txt")};
   }
@@ -81,7 +82,8 @@ TEST_F(CommandLine, RunsACaseAndWritesJson) {
 }
 
 TEST_F(CommandLine, AMismatchIsStatusOneWithPictureReproductionAndCommand) {
-  const Outcome outcome = run("run --subject fault:right-inclusive --generator ties --count 500 --report rep --junit j.xml");
+  const Outcome outcome =
+      run("run --subject fault:right-inclusive --generator ties --count 500 --report rep --junit j.xml");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out, HasSubstr("fail"));
   EXPECT_THAT(slurp(folder_ / "j.xml"), HasSubstr("<failure"));
@@ -118,6 +120,9 @@ TEST_F(CommandLine, ListsAndShows) {
   const Outcome shown = run("show " + write("a.json", kCase));
   EXPECT_EQ(shown.status, 0);
   EXPECT_THAT(shown.out, AllOf(HasSubstr("A test."), HasSubstr("#")));
+  EXPECT_THAT(run("show clip/depth_at_both_ends --subject lavapipe").out, HasSubstr("###."));
+  EXPECT_EQ(run("show clip/depth_at_both_ends --subject osmesa-softpipe").status, 2);
+  EXPECT_EQ(run("show clip/mesh_across_the_near_plane --subject lavapipe --png clipped.png").status, 0);
   EXPECT_EQ(run("show a.json --subject fault:all-exclusive --png p.png").status, 0);
   EXPECT_THAT(slurp(folder_ / "p.png").substr(1, 3), "PNG");
 }
@@ -150,8 +155,9 @@ TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
 TEST_F(CommandLine, FindsTheLimitsOfSubjects) {
   const Outcome limits = run("limits --subject edgecase --subject lavapipe");
   EXPECT_EQ(limits.status, 0) << limits.err;
-  EXPECT_EQ(limits.out, "edgecase: exact to ±32,767.99609375 px; beyond: not accepted\n"
-                        "lavapipe: exact to ±8,192 px; beyond: not accepted\n");
+  EXPECT_EQ(limits.out,
+            "edgecase: exact to ±32,767.99609375 px; beyond: not accepted\n"
+            "lavapipe: exact to ±8,192 px; beyond: not accepted\n");
   expect_one_line(run("limits --subject lavapip"), 2, "lavapip");
 }
 
@@ -193,7 +199,8 @@ TEST_F(CommandLine, EveryBadCaseFileIsNamedWithFieldAndValue) {
   expect_bad(head + R"([4, 4], "target": [4, 4], "triangles": [[["0","0"],["1","0"],["0","1"]]]})", "target");
   expect_bad(head + R"([4, 4], "triangles": [[["0","0"],["1","0"],["0","1"]]], "expect": ["...."]})", "expect");
   // What it expects contradicts the rules: the case is wrong, not the subject.
-  const Outcome contradiction = run("run " + write("c.json", head + R"([2, 1], "triangles": [[["0","0"],["2","0"],["0","2"]]],
+  const Outcome contradiction = run("run " +
+                                    write("c.json", head + R"([2, 1], "triangles": [[["0","0"],["2","0"],["0","2"]]],
       "expect": ["##"]})") + " --subject edgecase");
   EXPECT_EQ(contradiction.status, 1);
   EXPECT_THAT(contradiction.out, HasSubstr("the case says 1 triangles, the rules say 0"));
@@ -201,10 +208,12 @@ TEST_F(CommandLine, EveryBadCaseFileIsNamedWithFieldAndValue) {
 
 TEST_F(CommandLine, ExhaustsALatticeAlsoAfterBeingKilled) {
   // Far more triangles than can be drawn until it is killed; a state is written every second.
-  const std::string arguments = "exhaust --lattice-bits 3 --target 4x4 --subject fault:all-exclusive --jobs 1 --state s.json";
+  const std::string arguments =
+      "exhaust --lattice-bits 3 --target 4x4 --subject fault:all-exclusive --jobs 1 --state s.json";
   const auto killed_at = [&] {
     const int status = std::system(
-        ("cd '" + folder_.string() + "' && timeout -s KILL 1.6 '" EDGECASE_PROGRAM "' " + arguments + " 2>/dev/null").c_str());
+        ("cd '" + folder_.string() + "' && timeout -s KILL 1.6 '" EDGECASE_PROGRAM "' " + arguments + " 2>/dev/null")
+            .c_str());
     EXPECT_NE(status, 0);
     return nlohmann::json::parse(slurp(folder_ / "s.json"))["triangles"].get<std::uint64_t>();
   };
