@@ -1,11 +1,9 @@
 #include "conformance/bench/bench.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -13,7 +11,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "conformance/bench/growth.h"
 #include "conformance/bench/plot.h"
+#include "conformance/bench/progress.h"
 #include "conformance/scene/nearest_name.h"
 
 namespace edgecase::conformance {
@@ -59,38 +59,6 @@ tl::expected<std::vector<std::unique_ptr<Contender>>, Error> chosen_contenders(c
   return chosen;
 }
 
-/// On standard error, if a person is watching it.
-class Progress {
- public:
-  explicit Progress(std::size_t steps) : steps_(steps), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  /// Before step number `done`, counted from 0.
-  void show(std::size_t done, std::string_view what) const {
-    if (!shown_) return;
-    constexpr std::size_t kWidth = 30;
-    const std::size_t filled = kWidth * done / steps_;
-    std::string left;
-    if (done > 0) {
-      const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-      const double rest = passed.count() / static_cast<double>(done) * static_cast<double>(steps_ - done);
-      left = fmt::format(", {:.0f} s left", rest);
-    }
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {} of {} workloads{}: {}", "", filled, "", kWidth - filled, done,
-               steps_, left, what);
-    std::fflush(stderr);
-  }
-
- private:
-  std::size_t steps_;
-  bool shown_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 int exit_status(ErrorKind kind) { return kind == ErrorKind::absent ? 3 : kind == ErrorKind::bad_input ? 2 : 1; }
 
 tl::unexpected<Error> cannot_write(const std::string& path) {
@@ -134,6 +102,28 @@ tl::expected<void, Error> run(const BenchOptions& options) {
   return {};
 }
 
+tl::expected<void, Error> run_growth(const BenchOptions& options) {
+  std::error_code error;
+  std::filesystem::create_directories(options.growth, error);
+  if (error) {
+    return tl::unexpected(
+        Error{ErrorKind::bad_input, fmt::format("cannot make the folder {}: {}", options.growth, error.message())});
+  }
+  const std::filesystem::path folder = options.growth;
+  const std::string json = (folder / "growth.json").string();
+  if (auto writable = check_writable(json); !writable) return writable;
+  const auto points =
+      measure_growth(options.quick ? kQuickGrowth : kThoroughGrowth, options.seed, options.make_subject);
+  if (!points) return tl::unexpected(points.error());
+  fmt::print("{}", growth_table(*points));
+  if (auto written = write_file(json, growth_json(*points)); !written) return written;
+  for (const GrowthAxis& axis : growth_axes()) {
+    const std::string path = (folder / fmt::format("growth-{}.png", axis.name)).string();
+    if (auto drawn = run_gnuplot(growth_plot_program(axis, *points, path), path); !drawn) return drawn;
+  }
+  return {};
+}
+
 }  // namespace
 
 tl::expected<std::vector<BenchRow>, Error> bench(const BenchOptions& options) {
@@ -142,7 +132,7 @@ tl::expected<std::vector<BenchRow>, Error> bench(const BenchOptions& options) {
   const auto contenders = chosen_contenders(options);
   if (!contenders) return tl::unexpected(contenders.error());
   const Effort& effort = options.quick ? kQuick : kThorough;
-  const Progress progress(chosen->size());
+  const Progress progress(chosen->size(), "workloads");
   std::vector<BenchRow> rows;
   for (std::size_t i = 0; i < chosen->size(); ++i) {
     progress.show(i, (*chosen)[i]->name);
@@ -154,7 +144,7 @@ tl::expected<std::vector<BenchRow>, Error> bench(const BenchOptions& options) {
 }
 
 int bench_command(const BenchOptions& options) {
-  if (const auto done = run(options); !done) {
+  if (const auto done = options.growth.empty() ? run(options) : run_growth(options); !done) {
     fmt::print(stderr, "edgecase: {}\n", done.error().message);
     return exit_status(done.error().kind);
   }

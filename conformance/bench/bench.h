@@ -25,6 +25,9 @@ struct BenchOptions {
   /// Where to write the rows as JSON, and the plot as PNG; empty for not at all. "-" is standard output.
   std::string json;
   std::string plot;
+  /// Measures growth instead, into this folder: growth.json and a picture for each axis, see growth.h. Workloads,
+  /// subjects, json and plot are then not looked at.
+  std::string growth;
   std::uint64_t seed = 1;
   /// Finds a subject whose name is no built-in contender's.
   std::function<tl::expected<std::unique_ptr<Subject>, Error>(const std::string&)> make_subject;

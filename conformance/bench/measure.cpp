@@ -1,13 +1,10 @@
 #include "conformance/bench/measure.h"
 
-#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "conformance/bench/geometry.h"
@@ -21,74 +18,6 @@ namespace {
 
 /// One in this many triangles of the scalar rasterizer's answers is given to the oracle.
 constexpr std::size_t kJudgedShare = 64;
-
-/// Keeps what Google Benchmark measured instead of printing it.
-class Collector : public benchmark::BenchmarkReporter {
- public:
-  bool ReportContext(const Context&) override { return true; }
-  void ReportRuns(const std::vector<Run>& runs) override {
-    for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Iteration) continue;
-      const auto index = static_cast<std::size_t>(std::stoul(run.run_name.function_name));
-      if (run.error_occurred) {
-        error = run.error_message;
-      } else {
-        real_seconds[index].push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
-        cpu_seconds[index].push_back(run.cpu_accumulated_time / static_cast<double>(run.iterations));
-      }
-    }
-  }
-
-  std::map<std::size_t, std::vector<double>> real_seconds, cpu_seconds;
-  std::string error;
-};
-
-void initialize_google_benchmark() {
-  static const bool once = [] {
-    std::array<std::string, 2> arguments{"edgecase", "--benchmark_enable_random_interleaving=true"};
-    std::array<char*, 3> pointers{arguments[0].data(), arguments[1].data(), nullptr};
-    int count = 2;
-    benchmark::Initialize(&count, pointers.data());
-    return true;
-  }();
-  static_cast<void>(once);
-}
-
-/// Seconds a draw, a value per repetition, by contender.
-tl::expected<std::vector<std::vector<double>>, Error> time_draws(
-    const std::vector<std::unique_ptr<Contender>>& contenders, const Effort& effort) {
-  initialize_google_benchmark();
-  benchmark::ClearRegisteredBenchmarks();
-  for (std::size_t i = 0; i < contenders.size(); ++i) {
-    const auto run = [contender = contenders[i].get()](benchmark::State& state) {
-      for (auto _ : state) {
-        state.PauseTiming();
-        contender->clear();
-        const double before = contender->driver_seconds();
-        state.ResumeTiming();
-        if (const auto drawn = contender->draw(); !drawn) {
-          state.SkipWithError(drawn.error().message.c_str());
-          break;
-        }
-        benchmark::ClobberMemory();
-        if (contender->clock() == Clock::driver) state.SetIterationTime(contender->driver_seconds() - before);
-      }
-    };
-    auto* const registered = benchmark::RegisterBenchmark(std::to_string(i).c_str(), run);
-    registered->Repetitions(static_cast<int>(effort.repetitions))->MinTime(effort.seconds_per_repetition);
-    if (contenders[i]->clock() == Clock::wall) registered->UseRealTime();
-    if (contenders[i]->clock() == Clock::driver) registered->UseManualTime();
-  }
-  Collector collector;
-  benchmark::RunSpecifiedBenchmarks(&collector, "all");
-  benchmark::ClearRegisteredBenchmarks();
-  if (!collector.error.empty()) return tl::unexpected(Error{ErrorKind::subject, collector.error});
-  std::vector<std::vector<double>> seconds;
-  for (std::size_t i = 0; i < contenders.size(); ++i) {
-    seconds.push_back(contenders[i]->clock() == Clock::thread ? collector.cpu_seconds[i] : collector.real_seconds[i]);
-  }
-  return seconds;
-}
 
 /// The rows of the target that hold every sample in the triangle's bounding box, and one more on either side.
 std::pair<std::size_t, std::size_t> rows_of(const Triangle& triangle, int height) {
@@ -144,19 +73,6 @@ tl::expected<void, Error> judge_expectation(const Scene& scene) {
 }
 
 }  // namespace
-
-Statistics statistics(std::vector<double> values) {
-  std::ranges::sort(values);
-  // Between the values, where the share falls between two of them.
-  const auto quantile = [&](double share) {
-    const double position = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(position);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] + (values[above] - values[below]) * (position - static_cast<double>(below));
-  };
-  const double median = quantile(0.5);
-  return {median, (quantile(0.75) - quantile(0.25)) / median};
-}
 
 tl::expected<ErrorCount, Error> count_errors(Contender& contender, const Scene& scene, Truth truth) {
   const MaskLayout layout(scene.setting);
@@ -259,11 +175,11 @@ tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
     row.instructions_per_triangle = *instructions;
     covered.push_back(counted->covered);
   }
-  const auto seconds = time_draws(contenders, effort);
+  const auto seconds = time_draws(contenders, effort.repetitions);
   if (!seconds) return tl::unexpected(seconds.error());
 
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Statistics draw = statistics((*seconds)[i]);
+    const Statistics draw = (*seconds)[i];
     BenchRow& row = rows[i];
     row.ns_per_triangle = draw.median / static_cast<double>(row.triangles) * 1e9;
     row.spread = draw.spread;

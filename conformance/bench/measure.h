@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "conformance/bench/contender.h"
+#include "conformance/bench/timing.h"
 #include "conformance/bench/workloads.h"
 #include "conformance/scene/error.h"
 
@@ -45,25 +46,17 @@ struct BenchRow {
 };
 
 struct Effort {
-  std::size_t repetitions;
-  double seconds_per_repetition;  ///< at least
+  Repetitions repetitions;
   /// Divides the number of the workload's triangles.
   std::size_t divisor;
 };
-inline constexpr Effort kQuick{3, 0.01, 100};
-inline constexpr Effort kThorough{9, 0.05, 1};
+inline constexpr Effort kQuick{{3, 0.01}, 100};
+inline constexpr Effort kThorough{{9, 0.05}, 1};
 
 /// A row per contender, in their order. The first of them must be the plain loop.
 tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
                                                    const std::vector<std::unique_ptr<Contender>>& contenders,
                                                    const Effort& effort, std::uint64_t seed);
-
-/// Of an odd or even number of values, at least one: the median, and the quartiles' difference over it.
-struct Statistics {
-  double median;
-  double spread;
-};
-Statistics statistics(std::vector<double> values);
 
 /// What a pixel is expected to be.
 enum class Truth { rules, real_geometry };

@@ -41,16 +41,6 @@ std::size_t kind_of(const BenchRow& row) {
   return static_cast<std::size_t>(found - std::begin(kKinds));
 }
 
-/// In gnuplot's single quotes, where only a quote has to be doubled.
-std::string quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += c;
-  }
-  return result + "'";
-}
-
 std::string_view short_name(const BenchRow& row) {
   const std::string_view name = row.rasterizer;
   const Kind& kind = kKinds[kind_of(row)];
@@ -79,8 +69,8 @@ std::string labels(std::vector<const BenchRow*> rows, const Range& range) {
                         height_of(row), x, y);
   };
   const auto label = [&](const BenchRow& row, double x, double y, std::string_view how) {
-    text += fmt::format("set label {} at {},{} {} noenhanced font ',11' tc rgb '{}'\n", quoted(short_name(row)), x, y,
-                        how, kKinds[kind_of(row)].colour);
+    text += fmt::format("set label {} at {},{} {} noenhanced font ',11' tc rgb '{}'\n", gnuplot_quoted(short_name(row)),
+                        x, y, how, kKinds[kind_of(row)].colour);
   };
 
   std::ranges::sort(rows, {}, [](const BenchRow* row) { return row->ns_per_triangle; });
@@ -144,7 +134,7 @@ std::string panel(std::span<const BenchRow> rows, const std::string& workload) {
   for (const BenchRow* row : here) top = std::max(top, row->wrong_per_million * 5);
   std::string text = fmt::format(
       "unset label\nunset arrow\nset title {} noenhanced font ',15'\nset xrange [{}:{}]\nset yrange [{}:{}]\n",
-      quoted(workload), range.left, range.right, kBottom, top);
+      gnuplot_quoted(workload), range.left, range.right, kBottom, top);
   text += fmt::format("set arrow from graph 0,first {0} to graph 1,first {0} nohead lw 1 dt 3 lc rgb '#666666'\n",
                       kZeroLine);
   text += x_tics(range);
@@ -172,7 +162,7 @@ std::string key() {
       "unset label\nunset arrow\nunset title\nunset border\nunset tics\nunset xlabel\nunset ylabel\n"
       "unset logscale\nset xrange [0:1]\nset yrange [0:1]\n";
   const auto line = [&](double y, std::string_view words) {
-    text += fmt::format("set label {} at 0.08,{} left font ',13'\n", quoted(words), y);
+    text += fmt::format("set label {} at 0.08,{} left font ',13'\n", gnuplot_quoted(words), y);
   };
   double y = 0.92;
   for (const Kind& kind : kKinds) {
@@ -192,6 +182,16 @@ std::string key() {
 
 }  // namespace
 
+std::string gnuplot_quoted(std::string_view text) {
+  // Only a quote has to be doubled.
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += '\'';
+    result += c;
+  }
+  return result + "'";
+}
+
 std::string plot_program(std::span<const BenchRow> rows, const std::string& path) {
   std::vector<std::string> workloads;
   for (const BenchRow& row : rows) {
@@ -203,8 +203,8 @@ std::string plot_program(std::span<const BenchRow> rows, const std::string& path
   std::string text = fmt::format(
       "set terminal pngcairo size {},{} enhanced font 'sans,12'\nset output {}\n"
       "set multiplot layout {},{} title {} font ',18'\n",
-      600 * columns, 560 * lines + 60, quoted(path), lines, columns,
-      quoted("Triangle coverage: wrong pixels over time"));
+      600 * columns, 560 * lines + 60, gnuplot_quoted(path), lines, columns,
+      gnuplot_quoted("Triangle coverage: wrong pixels over time"));
   text += fmt::format(
       "set logscale xy\nset xlabel 'ns per triangle'\nset ylabel 'wrong pixels per million'\n"
       "set grid xtics ytics lc rgb '#dddddd'\nset format y '10^{{%L}}'\nset ytics add ('none' {})\n",

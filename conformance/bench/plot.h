@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 
 #include "conformance/bench/measure.h"
@@ -13,10 +14,13 @@ namespace edgecase::conformance {
 /// Writes a PNG to `path`. An error if gnuplot is not installed (ErrorKind::absent) or cannot write there.
 tl::expected<void, Error> plot_bench(std::span<const BenchRow> rows, const std::string& path);
 
-/// Runs a gnuplot program that draws to `path`; the same errors.
+/// Has gnuplot run the program that writes `path`; errors as above.
 tl::expected<void, Error> run_gnuplot(const std::string& program, const std::string& path);
 
-/// The gnuplot program that does it.
+/// `text` in gnuplot's single quotes.
+std::string gnuplot_quoted(std::string_view text);
+
+/// The gnuplot program of plot_bench.
 std::string plot_program(std::span<const BenchRow> rows, const std::string& path);
 
 }  // namespace edgecase::conformance

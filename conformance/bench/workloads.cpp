@@ -42,13 +42,14 @@ LatticePoint rounded(const Point& p, std::int64_t step) {
   return {coordinate(p.x), coordinate(p.y)};
 }
 
-/// Moves the three points, as they are to each other, to a random place on the screen, and puts them on the grid. They
+/// Moves the three points, as they are to each other, to a random place on the target, and puts them on the grid. They
 /// must fit.
-std::array<LatticePoint, 3> placed(std::array<Point, 3> points, std::int64_t step, Random& random) {
+std::array<LatticePoint, 3> placed(const Extent& target, std::array<Point, 3> points, std::int64_t step,
+                                   Random& random) {
   const auto [left, right] = std::minmax({points[0].x, points[1].x, points[2].x});
   const auto [top, bottom] = std::minmax({points[0].y, points[1].y, points[2].y});
-  const double dx = unit(random) * (kScreen.width - (right - left)) - left;
-  const double dy = unit(random) * (kScreen.height - (bottom - top)) - top;
+  const double dx = unit(random) * (target.width - (right - left)) - left;
+  const double dy = unit(random) * (target.height - (bottom - top)) - top;
   std::array<LatticePoint, 3> result;
   for (std::size_t i = 0; i < 3; ++i) result[i] = rounded({points[i].x + dx, points[i].y + dy}, step);
   return result;
@@ -56,7 +57,8 @@ std::array<LatticePoint, 3> placed(std::array<Point, 3> points, std::int64_t ste
 
 /// Appends `count` triangles of `area` px^2 before their vertices are put on the grid, none of which is thinner than
 /// area = 0.12 * (longest edge)^2; the equilateral triangle has 0.43.
-void append_even(std::size_t count, double area, std::int64_t step, Random& random, std::vector<Triangle>& triangles) {
+void append_even(const Extent& target, std::size_t count, double area, std::int64_t step, Random& random,
+                 std::vector<Triangle>& triangles) {
   constexpr double kLeastRatio = 0.12;
   for (std::size_t made = 0; made < count;) {
     std::array<Point, 3> p;
@@ -74,7 +76,7 @@ void append_even(std::size_t count, double area, std::int64_t step, Random& rand
       point.x *= scale;
       point.y *= scale;
     }
-    const auto [a, b, c] = placed(p, step, random);
+    const auto [a, b, c] = placed(target, p, step, random);
     if (orientation(a, b, c) == 0) continue;  // on a coarse grid only
     triangles.push_back(lattice().triangle(a, b, c));
     ++made;
@@ -83,17 +85,17 @@ void append_even(std::size_t count, double area, std::int64_t step, Random& rand
 
 void small10(std::uint64_t seed, std::size_t count, Scene& scene) {
   Random random = Random::stream(seed, "small10", 0);
-  append_even(count, 10, kFinest, random, scene.triangles);
+  append_even(kScreen, count, 10, kFinest, random, scene.triangles);
 }
 
 void med200(std::uint64_t seed, std::size_t count, Scene& scene) {
   Random random = Random::stream(seed, "med200", 0);
-  append_even(count, 200, kFinest, random, scene.triangles);
+  append_even(kScreen, count, 200, kFinest, random, scene.triangles);
 }
 
 void large20k(std::uint64_t seed, std::size_t count, Scene& scene) {
   Random random = Random::stream(seed, "large20k", 0);
-  append_even(count, 20'000, kFinest, random, scene.triangles);
+  append_even(kScreen, count, 20'000, kFinest, random, scene.triangles);
 }
 
 void full(std::uint64_t, std::size_t count, Scene& scene) {
@@ -117,7 +119,8 @@ void sliver(std::uint64_t seed, std::size_t count, Scene& scene) {
     const Point along{in_disk.x / radius, in_disk.y / radius};
     const double width = 0.5 + 0.5 * unit(random);
     const double apex = kLength * unit(random);
-    const auto [a, b, c] = placed({Point{}, Point{kLength * along.x, kLength * along.y},
+    const auto [a, b, c] = placed(kScreen,
+                                  {Point{}, Point{kLength * along.x, kLength * along.y},
                                    Point{apex * along.x - width * along.y, apex * along.y + width * along.x}},
                                   kFinest, random);
     scene.triangles.push_back(lattice().triangle(a, b, c));
@@ -169,7 +172,7 @@ void ties(std::uint64_t seed, std::size_t count, Scene& scene) {
   const std::size_t of_mesh = std::min(count / 2, kMesh);
   std::vector<Triangle> small, mesh;
   Random for_small = Random::stream(seed, "ties", 0), for_mesh = Random::stream(seed, "ties", 1);
-  append_even(count - of_mesh, 10, kHalfPixel, for_small, small);
+  append_even(kScreen, count - of_mesh, 10, kHalfPixel, for_small, small);
   append_mesh(of_mesh, kHalfPixel, for_mesh, mesh);
   for (std::size_t i = 0; i < small.size(); ++i) {
     scene.triangles.push_back(small[i]);
@@ -194,6 +197,16 @@ std::span<const Workload> workloads() { return kWorkloads; }
 const Workload* find_workload(std::string_view name) {
   const auto found = std::ranges::find(kWorkloads, name, &Workload::name);
   return found == std::end(kWorkloads) ? nullptr : found;
+}
+
+Scene make_even(const Extent& target, std::size_t count, double area, std::uint64_t seed) {
+  Scene scene;
+  scene.setting.target = target;
+  scene.rules.subpixel_bits = kSubpixelBits;
+  scene.triangles.reserve(count);
+  Random random = Random::stream(seed, "even", 0);
+  append_even(target, count, area, kFinest, random, scene.triangles);
+  return scene;
 }
 
 Scene make_workload(const Workload& workload, std::size_t count, std::uint64_t seed) {

@@ -33,4 +33,8 @@ const Workload* find_workload(std::string_view name);
 /// The first `count` triangles of `workload`, all of them if it has no more than that.
 Scene make_workload(const Workload& workload, std::size_t count, std::uint64_t seed = 1);
 
+/// `count` triangles of `area` px^2 anywhere on `target`, on the grid, none thin. They must fit: sqrt(area / 0.12) px,
+/// the longest edge that can be, is at most the target's lesser side.
+Scene make_even(const Extent& target, std::size_t count, double area, std::uint64_t seed = 1);
+
 }  // namespace edgecase::conformance

@@ -110,6 +110,16 @@ void add_bench(CLI::App& app, BenchOptions& options) {
   bench->add_option("--seed", options.seed, "Seed of the workloads")->type_name("N")->capture_default_str();
   bench->add_option("--json", options.json, "Write the rows as JSON; - for standard output")->type_name("FILE");
   bench->add_option("--plot", options.plot, "Draw error over time as PNG")->type_name("FILE");
+  bench
+      ->add_option(
+          "--growth", options.growth,
+          "Instead, measure time against the number, area, range and samples of triangles and the target's size, "
+          "into this folder")
+      ->type_name("DIR")
+      ->excludes("--workload")
+      ->excludes("--subject")
+      ->excludes("--json")
+      ->excludes("--plot");
 }
 
 int dispatch(int argc, char** argv) {
