@@ -51,7 +51,8 @@ struct Effort {
   std::size_t divisor;
 };
 inline constexpr Effort kQuick{{3, 0.01}, 100};
-inline constexpr Effort kThorough{{9, 0.05}, 1};
+/// A quarter: the slowest arithmetics take half a second for one draw of a whole workload.
+inline constexpr Effort kThorough{{9, 0.05}, 4};
 
 /// A row per contender, in their order. The first of them must be the plain loop.
 tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
