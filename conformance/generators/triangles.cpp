@@ -91,19 +91,14 @@ void far_corner(const Lattice& lattice, Random& random, Scene& scene) {
     return border * lattice.pixel() + random.between(-1, 1) * (random.one_in(2) ? 1 : lattice.half_pixel());
   };
   const LatticePoint corner{near(), near()};
-  switch (random.between(0, 2)) {
-    case 0:
-      return append(lattice, random, {far(), far()}, {corner.x, far()}, corner, scene);
-    case 1:
-      return append(lattice, random, {far(), far()}, {far(), corner.y}, corner, scene);
-    default: {
-      const LatticePoint a{far(), far()};
-      const LatticePoint centre = lattice.to_centre({random.between(0, corner.x), random.between(0, corner.y)});
-      LatticePoint b{random.one_in(2) ? corner.x : far(), random.one_in(2) ? corner.y : far()};
-      if (random.one_in(2)) b = {centre.x + (centre.x - a.x) / 4096, centre.y + (centre.y - a.y) / 4096};
-      return append(lattice, random, a, b, {random.one_in(2) ? corner.x : far(), near()}, scene);
-    }
-  }
+  const LatticePoint a{far(), far()};
+  LatticePoint b{corner.x, far()};
+  if (random.one_in(3)) return append(lattice, random, a, b, corner, scene);
+  if (random.one_in(2)) return append(lattice, random, a, {b.y, corner.y}, corner, scene);
+  const LatticePoint centre = lattice.to_centre({corner.x / 2, corner.y / 2});
+  if (random.one_in(2)) b = {centre.x + (centre.x - a.x) / 4096, centre.y + (centre.y - a.y) / 4096};
+  const LatticePoint c{random.one_in(2) ? corner.x : far(), near()};
+  append(lattice, random, a, b, c, scene);
 }
 
 void tiny(const Lattice& lattice, Random& random, Scene& scene) {
