@@ -25,5 +25,11 @@ Append floats;
 Append float_ties;
 Append inside;
 Append clip;
+Append far_rectangle;
+Append straddle;
+Append needle;
+Append spokes;
+Append range_ends;
+Append border_samples;
 
 }  // namespace edgecase::conformance::families

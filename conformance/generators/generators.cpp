@@ -10,6 +10,10 @@ namespace {
 constexpr std::string_view kSampleTies = "triangles on the lattice of the sample locations, and slivers through them";
 constexpr std::string_view kFarCorner =
     "triangles that end within 64 px, or just beyond, and reach thousands of pixels to the left and above";
+constexpr std::string_view kStraddle =
+    "boxes of 4, 8, 16, 32, 64 and 128 px, up to a pixel more or less, on their grids";
+constexpr std::string_view kNeedle =
+    "needles 16,000 px long, a subpixel or two wide, within a subpixel of the centres of a whole row or column";
 constexpr std::string_view kInside =
     "triangles in clip space that stay inside this viewport, ties of the snap among them";
 constexpr std::string_view kClipped =
@@ -22,8 +26,8 @@ Setting multisampled(int samples) {
   return setting;
 }
 
-Setting sized(const Extent& target) {
-  Setting setting;
+Setting sized(const Extent& target, int samples = 1) {
+  Setting setting = multisampled(samples);
   setting.target = target;
   return setting;
 }
@@ -96,6 +100,21 @@ std::span<const Generator> generators() {
                 "coordinates half way between two grid points, and the least that binary32 can tell beside",
                 {},
                 families::float_ties},
+      Generator{"far_rectangle", "hard",
+                "rectangles of two triangles, thousands of pixels large, of which only the lower right corner is seen",
+                sized({30, 23}), families::far_rectangle},
+      Generator{"straddle_wide", "hard", kStraddle, sized({144, 24}), families::straddle},
+      Generator{"straddle_tall", "hard", kStraddle, sized({24, 144}), families::straddle},
+      Generator{"needle_row", "hard", kNeedle, sized({2048, 2}), families::needle},
+      Generator{"needle_column", "hard", kNeedle, sized({2, 2048}), families::needle},
+      Generator{"spokes", "hard", "closed fans of 1,000 to 4,096 spokes", {}, families::spokes},
+      Generator{"range_ends",
+                "hard",
+                "coordinates at both ends of 16 integer bits, and near the target",
+                {},
+                families::range_ends},
+      Generator{"border16", "hard", "triangles that end at a sample on or next to its pixel's border",
+                sized({8, 8}, 16), families::border_samples},
   };
   return all;
 }

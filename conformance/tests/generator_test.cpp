@@ -64,6 +64,14 @@ TEST(Generators, MakeTheSameTrianglesEverywhere) {
       {"scissor_empty", 13872866387816004404u},
       {"floats", 16097070988458644877u},
       {"float_ties", 8440445900174063730u},
+      {"far_rectangle", 2721263461180186700u},
+      {"straddle_wide", 14107114777668808581u},
+      {"straddle_tall", 8396379434067633687u},
+      {"needle_row", 56907854777952216u},
+      {"needle_column", 9710792056754524351u},
+      {"spokes", 17142157929875484355u},
+      {"range_ends", 14302128381108455005u},
+      {"border16", 6610607210369440676u},
   };
   for (const Generator& generator : generators()) {
     const std::uint64_t actual = digest(scenes(generator, 1, 0, 200));
