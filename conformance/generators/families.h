@@ -20,9 +20,15 @@ Append range;
 Append sliver;
 Append tiny;
 Append sample_ties;
+Append around_samples;
 Append floats;
 Append float_ties;
 Append inside;
 Append clip;
+Append centres;
+Append behind;
+Append turned;
+Append strips;
+Append fans;
 
 }  // namespace edgecase::conformance::families
