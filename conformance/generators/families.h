@@ -17,6 +17,7 @@ Append refinement;
 Append uniform;
 Append ties;
 Append range;
+Append far_corner;
 Append sliver;
 Append tiny;
 Append sample_ties;

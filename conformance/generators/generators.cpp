@@ -8,6 +8,8 @@ namespace edgecase::conformance {
 namespace {
 
 constexpr std::string_view kSampleTies = "triangles on the lattice of the sample locations, and slivers through them";
+constexpr std::string_view kFarCorner =
+    "triangles that end within 64 px, or just beyond, and reach thousands of pixels to the left and above";
 constexpr std::string_view kInside =
     "triangles in clip space that stay inside this viewport, ties of the snap among them";
 constexpr std::string_view kClipped =
@@ -24,6 +26,12 @@ Setting culled(CullMode cull, FrontFace front) {
   Setting setting;
   setting.cull = cull;
   setting.front_face = front;
+  return setting;
+}
+
+Setting sized(const Extent& target) {
+  Setting setting;
+  setting.target = target;
   return setting;
 }
 
@@ -67,6 +75,10 @@ std::span<const Generator> generators() {
                 families::ties},
       Generator{
           "range", "range", "triangles whose vertices lie up to 8,000 px outside the target", {}, families::range},
+      Generator{"far_corner", "range", kFarCorner, {}, families::far_corner},
+      Generator{"far_corner_wide", "range", kFarCorner, sized({75, 70}), families::far_corner},
+      Generator{"far_corner_scissor", "range", kFarCorner, scissored({3, 18, 21, 9}), families::far_corner},
+      Generator{"far_corner_samples4", "range", kFarCorner, multisampled(4), families::far_corner},
       Generator{"sliver",
                 "sliver",
                 "needles up to a few subpixels wide, most of them passing close to pixel centres",

@@ -149,7 +149,7 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.known_triangles = outcome.known_triangles;
   result.unpredicted = outcome.unpredicted;
   if (const Finding* first = first_to_show(outcome)) result.first = first_wrong(*first, run, plan);
-  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject));
+  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject, run.device));
   result.seconds = run.trial.seconds;
   result.subject_seconds = run.trial.subject_seconds;
   return result;

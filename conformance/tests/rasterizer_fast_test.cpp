@@ -8,6 +8,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rasterizer/rasterizer.h"
@@ -162,6 +163,48 @@ TEST_P(FastRasterizerTest, LargeTrianglesInsideTheTarget) {
     triangle = {
         point(x0, y0), point(x1, y1),
         point(x0 + (x1 - x0) * along / 256 + between(-off, off), y0 + (y1 - y0) * along / 256 + between(-off, off))};
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
+}
+
+// Bands are exact up to an extent and a height: triangles on both sides of these limits, of which one edge passes a
+// pixel's centre as closely as an edge of its height can without touching it.
+TEST_P(FastRasterizerTest, TrianglesAboutAsLargeAsBandsReach) {
+  const Target target = *Target::make(2600, 2600);
+  std::mt19937_64 random(8);
+  const auto between = [&](std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
+  };
+  std::vector<Fixed> triangles;
+  while (triangles.size() < 24 * 8) {
+    // From (x, y), dy down, the edge is dx * down / dy right of x where it passes the row of a centre. That is 1 / dy
+    // off a whole number if dx * down = 1 modulo dy.
+    if (random() % 8 == 0) {
+      // One whose widest band is about as wide as they may be.
+      const std::int64_t top = between(0, 2500 * 256), right = between(1970, 2080) * 256;
+      triangles.push_back({vertex(between(0, 64), top), vertex(right, top), vertex(right / 2, between(0, 2600 * 256))});
+      continue;
+    }
+    const std::int64_t dy = random() % 4 == 0 ? between(300, 2100) * 256 + 1 : between(1980, 2010) * 256 + 1;
+    const std::int64_t down = between(1, dy - 1);
+    std::int64_t dx = 0, next = 1;
+    for (std::int64_t r = dy, next_r = down; next_r != 0;) {
+      const std::int64_t quotient = r / next_r;
+      dx = std::exchange(next, dx - quotient * next);
+      r = std::exchange(next_r, r - quotient * next_r);
+      if (next_r == 0 && r != 1) dx = 0;
+    }
+    if (dx == 0) continue;
+    dx += between(-1, 1) * dy;        // the same modulo dy, and wider
+    if (random() % 2 == 0) dx = -dx;  // to the left of the centre, or of the edge
+    const std::int64_t crossing = dx * down / dy;
+    const std::int64_t y = between(1, 100) * 256 + 128 - down % 256;
+    const std::int64_t x =
+        (random() % 2 == 0 ? 128 - crossing % 256 : between(0, 255)) + between(1290, 1310) * 256 - dx / 512 * 256;
+    const std::int64_t third = random() % 2 == 0 ? between(0, 2600 * 256) : x + between(-600, 600) * 256;
+    triangles.push_back({vertex(x, y), vertex(x + dx, y + dy), vertex(third, y + between(0, dy))});
+    const auto outside = [](const auto& v) { return v.x.value() < 0 || v.x.value() > 2600 * 256; };
+    if (std::ranges::any_of(triangles.back(), outside)) triangles.pop_back();
   }
   ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
 }
