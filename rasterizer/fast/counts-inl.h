@@ -87,15 +87,27 @@ HWY_INLINE void count_plane(const SnappedTriangle* triangles, const LaneSetup& s
 }
 
 template <class Planes>
+HWY_NOINLINE void count_groups(const SnappedTriangle* triangles, std::size_t groups, const Planes& planes, int width,
+                               int height, std::uint64_t* counts) {
+  for (; groups != 0; --groups, triangles += kLanes, counts += kLanes) {
+    std::fill_n(counts, kLanes, std::uint64_t{0});
+    const LaneTriangle lanes = make_lane_triangle(load_vertices(triangles));
+    for (int plane = 0; plane < planes.count(); ++plane) {
+      count_plane(triangles, make_lane_setup(lanes, planes.shift(plane)), planes, plane, width, height, counts);
+    }
+  }
+}
+
+template <class Planes>
 HWY_INLINE void count_list(std::span<const SnappedTriangle> triangles, const Planes& planes, int width, int height,
                            std::uint64_t* counts) {
-  for_each_group(triangles, [&](const SnappedTriangle* group, std::size_t first, std::size_t size) HWY_ATTR {
-    std::uint64_t sums[kMaxLanes] = {};
-    const LaneTriangle lanes = make_lane_triangle(load_vertices(group));
-    for (int plane = 0; plane < planes.count(); ++plane) {
-      count_plane(group, make_lane_setup(lanes, planes.shift(plane)), planes, plane, width, height, sums);
+  in_groups(triangles, [&](const SnappedTriangle* group, std::size_t first, std::size_t groups) HWY_ATTR {
+    if (first + groups * kLanes <= triangles.size()) {
+      return count_groups(group, groups, planes, width, height, counts + first);
     }
-    std::copy_n(sums, size, counts + first);
+    std::uint64_t last[kMaxLanes];
+    count_groups(group, groups, planes, width, height, last);
+    std::copy_n(last, triangles.size() - first, counts + first);
   });
 }
 

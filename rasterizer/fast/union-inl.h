@@ -145,38 +145,41 @@ HWY_INLINE void draw_plane(const SnappedTriangle* triangles, const LaneSetup& se
   }
 }
 
-/// Draws kLanes triangles into every plane.
+/// Draws `groups` times kLanes triangles into every plane. Never inlined, so that its code is the same whoever calls
+/// it.
 template <class Planes>
-HWY_INLINE void draw_group(const SnappedTriangle* triangles, const Planes& planes, int width, std::size_t apart,
-                           const Strips& strips) {
-  const LaneTriangle lanes = make_lane_triangle(load_vertices(triangles));
-  for (int plane = 0; plane < planes.count(); ++plane) {
-    Strips own = strips;
-    own.words += planes.words_before(plane);
-    draw_plane(triangles, make_lane_setup(lanes, planes.shift(plane)), planes, plane, width, apart, own);
+HWY_NOINLINE void draw_groups(const SnappedTriangle* triangles, std::size_t groups, const Planes& planes, int width,
+                              std::size_t apart, Strips strips) {
+  for (; groups != 0; --groups, triangles += kLanes, strips.words += kLanes * apart) {
+    const LaneTriangle lanes = make_lane_triangle(load_vertices(triangles));
+    for (int plane = 0; plane < planes.count(); ++plane) {
+      Strips own = strips;
+      own.words += planes.words_before(plane);
+      draw_plane(triangles, make_lane_setup(lanes, planes.shift(plane)), planes, plane, width, apart, own);
+    }
   }
 }
 
-/// Calls group(triangles, first, size) for kLanes triangles at a time, of which those beyond `size`, after the list's
-/// last one, have no area; `first`: the index of their first.
-template <class Group>
-HWY_INLINE void for_each_group(std::span<const SnappedTriangle> triangles, const Group& group) {
+/// Calls draw(triangles, first, groups) for all triangles in groups of kLanes, and in the end once for a group of which
+/// those after the list's last one have no area. `first`: the index of the first.
+template <class Draw>
+HWY_INLINE void in_groups(std::span<const SnappedTriangle> triangles, const Draw& draw) {
   const std::size_t whole = triangles.size() / kLanes * kLanes;
-  for (std::size_t i = 0; i < whole; i += kLanes) group(triangles.data() + i, i, kLanes);
+  draw(triangles.data(), std::size_t{0}, whole / kLanes);
   if (whole == triangles.size()) return;
   std::array<SnappedTriangle, kLanes> last{};
   std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(whole), triangles.end(), last.begin());
-  group(last.data(), whole, triangles.size() - whole);
+  draw(last.data(), whole, std::size_t{1});
 }
 
-/// Draws any number of triangles.
+/// Draws any number of triangles, each into the strips that begin `apart` words after those of the one before.
 template <class Planes>
 HWY_INLINE void draw_list(std::span<const SnappedTriangle> triangles, const Planes& planes, int width,
                           std::size_t apart, const Strips& strips) {
-  for_each_group(triangles, [&](const SnappedTriangle* group, std::size_t first, std::size_t) HWY_ATTR {
+  in_groups(triangles, [&](const SnappedTriangle* group, std::size_t first, std::size_t groups) HWY_ATTR {
     Strips own = strips;
     own.words += first * apart;
-    draw_group(group, planes, width, apart, own);
+    draw_groups(group, groups, planes, width, apart, own);
   });
 }
 
