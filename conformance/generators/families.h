@@ -25,6 +25,7 @@ Append floats;
 Append float_ties;
 Append inside;
 Append clip;
+Append clip_far;
 Append far_rectangle;
 Append straddle;
 Append needle;

@@ -142,11 +142,18 @@ std::uint64_t clip_digest(const Scene& scene) {
 
 TEST(ClipGenerators, MakeTheSameTrianglesEverywhere) {
   const std::map<std::string_view, std::uint64_t> recorded{
-      {"viewport_target", 8392404702350791666u},      {"viewport_offset", 10542471893156065547u},
-      {"viewport_fractional", 17447858661695073601u}, {"viewport_larger", 8278574336295672819u},
-      {"viewport_flipped", 6629143180877235703u},     {"clip", 14185208827670739430u},
-      {"clip_fractional", 4712831387426523879u},      {"clip_flipped", 15947028083121441635u},
-      {"clip_larger", 7954391216793282508u},          {"clip_samples4", 3684515973587697107u},
+      {"viewport_target", 8392404702350791666u},
+      {"viewport_offset", 10542471893156065547u},
+      {"viewport_fractional", 17447858661695073601u},
+      {"viewport_larger", 8278574336295672819u},
+      {"viewport_flipped", 6629143180877235703u},
+      {"clip", 14185208827670739430u},
+      {"clip_fractional", 4712831387426523879u},
+      {"clip_flipped", 15947028083121441635u},
+      {"clip_larger", 7954391216793282508u},
+      {"clip_samples4", 3684515973587697107u},
+      {"clip_far", 17948290799327744719u},
+      {"clip_far_samples4", 1220316510781005466u},
   };
   for (const Generator& generator : clip_generators()) {
     const std::uint64_t actual = clip_digest(scenes(generator, 1, 0, 200));
