@@ -31,6 +31,7 @@ Append straddle;
 Append needle;
 Append spokes;
 Append range_ends;
+Append viewport_ends;
 Append border_samples;
 
 }  // namespace edgecase::conformance::families

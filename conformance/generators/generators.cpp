@@ -115,6 +115,11 @@ std::span<const Generator> generators() {
                 "coordinates at both ends of 16 integer bits, and near the target",
                 {},
                 families::range_ends},
+      Generator{"viewport_ends",
+                "hard",
+                "the same at -8,192 and 8,192 px, between which a viewport of 16,384 px lies",
+                {},
+                families::viewport_ends},
       Generator{"border16", "hard", "triangles that end at a sample on or next to its pixel's border",
                 sized({8, 8}, 16), families::border_samples},
   };

@@ -72,6 +72,7 @@ TEST(Generators, MakeTheSameTrianglesEverywhere) {
       {"spokes", 17142157929875484355u},
       {"range_ends", 14302128381108455005u},
       {"border16", 6610607210369440676u},
+      {"viewport_ends", 10701669787501769225u},
   };
   for (const Generator& generator : generators()) {
     const std::uint64_t actual = digest(scenes(generator, 1, 0, 200));
