@@ -21,6 +21,7 @@ Append far_corner;
 Append sliver;
 Append tiny;
 Append sample_ties;
+Append around_samples;
 Append floats;
 Append float_ties;
 Append inside;
@@ -33,5 +34,10 @@ Append spokes;
 Append range_ends;
 Append viewport_ends;
 Append border_samples;
+Append centres;
+Append behind;
+Append turned;
+Append strips;
+Append fans;
 
 }  // namespace edgecase::conformance::families

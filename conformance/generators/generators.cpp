@@ -28,6 +28,13 @@ Setting multisampled(int samples) {
   return setting;
 }
 
+Setting culled(CullMode cull, FrontFace front) {
+  Setting setting;
+  setting.cull = cull;
+  setting.front_face = front;
+  return setting;
+}
+
 Setting sized(const Extent& target, int samples = 1) {
   Setting setting = multisampled(samples);
   setting.target = target;
@@ -88,6 +95,8 @@ std::span<const Generator> generators() {
       Generator{"samples4", "samples", kSampleTies, multisampled(4), families::sample_ties},
       Generator{"samples8", "samples", kSampleTies, multisampled(8), families::sample_ties},
       Generator{"samples16", "samples", kSampleTies, multisampled(16), families::sample_ties},
+      Generator{"samples16_tiny", "samples", "triangles of a few grid units around each of 16 samples",
+                multisampled(16), families::around_samples},
       Generator{"scissor_inside", "scissor", "random triangles, a scissor inside the target", scissored({5, 7, 19, 13}),
                 families::uniform},
       Generator{"scissor_across", "scissor", "random triangles, a scissor across two borders of the target",
@@ -96,6 +105,13 @@ std::span<const Generator> generators() {
                 scissored({16, 15, 1, 1}), families::ties},
       Generator{"scissor_empty", "scissor", "random triangles, a scissor that holds no pixel", scissored({9, 9, 0, 4}),
                 families::uniform},
+      Generator{"cull_back", "cull", "triangles on the half-pixel lattice, backs culled",
+                culled(CullMode::back, FrontFace::clockwise), families::ties},
+      Generator{"cull_front", "cull", "random triangles, counter-clockwise fronts culled",
+                culled(CullMode::front, FrontFace::counter_clockwise), families::uniform},
+      Generator{"strips", "topology", "indexed strips with restarts, backs culled",
+                culled(CullMode::back, FrontFace::clockwise), families::strips},
+      Generator{"fans", "topology", "indexed fans with restarts", {}, families::fans},
       Generator{"floats", "float", "random triangles, all 24 bits of each coordinate in use", {}, families::floats},
       Generator{"float_ties",
                 "float",
@@ -133,6 +149,20 @@ std::span<const Generator> clip_generators() {
       Generator{"viewport_fractional", "viewport", kInside, {}, families::inside, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
       Generator{"viewport_larger", "viewport", kInside, {}, families::inside, Viewport{-40, -30, 100, 75}},
       Generator{"viewport_flipped", "viewport", kInside, {}, families::inside, Viewport{3.3F, 30.1F, 27.3F, -37.7F}},
+      Generator{"viewport_flipped_ties",
+                "viewport",
+                "triangles in clip space on half pixels of a flipped viewport, half of them with a horizontal edge",
+                {},
+                families::centres,
+                Viewport{0, 32, 32, -32}},
+      Generator{"cull_turned", "cull", "slivers in clip space that snapping turns over, backs culled",
+                culled(CullMode::back, FrontFace::clockwise), families::turned, Viewport{0, 0, 32, 32}},
+      Generator{"clip_behind",
+                "clip",
+                "triangles in clip space inside the view volume, and mirrored through the eye",
+                {},
+                families::behind,
+                Viewport{0, 0, 32, 32}},
       Generator{"clip", "clip", kClipped, {}, families::clip, Viewport{0, 0, 32, 32}},
       Generator{"clip_fractional", "clip", kClipped, {}, families::clip, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
       Generator{"clip_flipped", "clip", kClipped, {}, families::clip, Viewport{3.3F, 30.1F, 27.3F, -37.7F}},
