@@ -36,7 +36,7 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 std::optional<std::string> Judge::refusal(const Scene& scene) const {
   if (auto refused = subject_.refusal(scene)) return refused;
-  if (scene.clip && !reference_.judges_clip_space()) return "no model of its clipper and transform is known";
+  if (scene.clip && !reference_.judges_clip_space()) return reference_.unjudged();
   return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -22,11 +23,13 @@ inline constexpr std::uint64_t kOracleShare = 256;
 class Reference {
  public:
   /// `fast` answers in bulk, and the oracles judge it; without it the oracle by definition answers for every triangle.
-  /// `model` says what the subject's clipper and transform do, and may be null: then clip space cannot be judged.
-  explicit Reference(std::unique_ptr<Subject> fast, const TransformModel* model = nullptr)
-      : fast_(std::move(fast)), model_(model) {}
+  /// `model` says what the subject's clipper and transform do; without it clip space cannot be judged, and `unjudged`
+  /// says why.
+  explicit Reference(std::unique_ptr<Subject> fast, std::optional<TransformModel> model = {}, std::string unjudged = {})
+      : fast_(std::move(fast)), model_(std::move(model)), unjudged_(std::move(unjudged)) {}
 
-  bool judges_clip_space() const { return model_ != nullptr; }
+  bool judges_clip_space() const { return model_.has_value(); }
+  const std::string& unjudged() const { return unjudged_; }
 
   /// Fills `must` with one mask per triangle of `scene`. `first_index` counts on through a run and picks the share that
   /// the oracles check. Of triangles in clip space, it is what the model predicts. An error is a fault of ours: two of
@@ -55,7 +58,8 @@ class Reference {
   void snap_all(const Scene& scene);
 
   std::unique_ptr<Subject> fast_;
-  const TransformModel* model_;
+  std::optional<TransformModel> model_;
+  std::string unjudged_;
   std::optional<WindowScene> window_;
   MaskBatch parts_;
   Scene snapped_;
