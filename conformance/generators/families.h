@@ -17,12 +17,25 @@ Append refinement;
 Append uniform;
 Append ties;
 Append range;
+Append far_corner;
 Append sliver;
 Append tiny;
 Append sample_ties;
+Append around_samples;
 Append floats;
 Append float_ties;
 Append inside;
 Append clip;
+Append far_rectangle;
+Append straddle;
+Append needle;
+Append spokes;
+Append range_ends;
+Append border_samples;
+Append centres;
+Append behind;
+Append turned;
+Append strips;
+Append fans;
 
 }  // namespace edgecase::conformance::families

@@ -36,7 +36,7 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 std::optional<std::string> Judge::refusal(const Scene& scene) const {
   if (auto refused = subject_.refusal(scene)) return refused;
-  if (scene.clip && !reference_.judges_clip_space()) return reference_.unjudged();
+  if (!reference_.judges(scene)) return reference_.unjudged();
   return std::nullopt;
 }
 
@@ -56,7 +56,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   comparison.samples_compared -= unpredicted * layout.sample_count();
   outcome.triangles.add(comparison);
   if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
-    if (auto judged = judge_triangles(batch, outcome); !judged) return judged;
+    if (auto judged = judge_triangles(batch, comparison.wrong_triangles == 0, outcome); !judged) return judged;
   }
   judge_meshes(batch, first_triangle, outcome);
   return {};
@@ -64,22 +64,26 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
 
 // Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and every
 // wrong one goes to both oracles before anybody is blamed.
-tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& outcome) {
+tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
+    const bool concerned = deviation_ != nullptr && !batch.scene.clip &&
+                           deviation_->may_concern(batch.scene.setting, batch.scene.triangles[i]);
+    if (all_right && !concerned) continue;
     const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
+    if (!wrong && !concerned) continue;
     if (wrong) {
       if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
     }
-    const bool known = deviation_ != nullptr && as_predicted(batch, i);
+    const bool known = concerned && as_predicted(batch, i);
     if (wrong && known) {
       ++outcome.known_triangles;
       add_finding(batch, i, 1, *comparison.first, true, outcome);
     } else if (wrong) {
       ++outcome.unexplained;
       add_finding(batch, i, 1, *comparison.first, false, outcome);
-    } else if (deviation_ != nullptr && !known) {
+    } else if (!known) {
       // Right where it is predicted to be wrong: the prediction, or the subject, is no longer what it was.
       const Comparison obsolete = compare_one(layout, batch, predicted_, observed_[i], i);
       if (!obsolete.first) continue;

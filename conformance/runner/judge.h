@@ -67,7 +67,7 @@ class Judge {
   tl::expected<void, Error> judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
 
  private:
-  tl::expected<void, Error> judge_triangles(const Batch& batch, Outcome& outcome);
+  tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
   void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);

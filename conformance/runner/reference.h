@@ -13,6 +13,7 @@
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
+#include "conformance/scene/window_position.h"
 #include "conformance/subjects/subject.h"
 
 namespace edgecase::conformance {
@@ -23,12 +24,13 @@ inline constexpr std::uint64_t kOracleShare = 256;
 class Reference {
  public:
   /// `fast` answers in bulk, and the oracles judge it; without it the oracle by definition answers for every triangle.
-  /// `model` says what the subject's clipper and transform do; without it clip space cannot be judged, and `unjudged`
-  /// says why.
+  /// `model` says what the subject's clipper and transform do; without it clip space is judged only where it has
+  /// exact_window_triangles, and `unjudged` says why.
   explicit Reference(std::unique_ptr<Subject> fast, std::optional<TransformModel> model = {}, std::string unjudged = {})
       : fast_(std::move(fast)), model_(std::move(model)), unjudged_(std::move(unjudged)) {}
 
-  bool judges_clip_space() const { return model_.has_value(); }
+  /// Whether expect() can say something about `scene`.
+  bool judges(const Scene& scene) const { return !scene.clip || model_ || exact_window_triangles(scene); }
   const std::string& unjudged() const { return unjudged_; }
 
   /// Fills `must` with one mask per triangle of `scene`. `first_index` counts on through a run and picks the share that

@@ -48,9 +48,10 @@ class Benches {
   tl::expected<Bench*, Error> add(const std::string& name, std::unique_ptr<Subject> subject) {
     auto reference = reference_for(name, &models_.at(name));
     if (!reference) return tl::unexpected(reference.error());
+    const std::string device = subject->info().device;
     auto& bench = benches_[name];
     bench = std::make_unique<Bench>(std::move(subject), std::move(*reference),
-                                    find_known_deviation(plan_.known_deviations, name));
+                                    find_known_deviation(plan_.known_deviations, name, device));
     return bench.get();
   }
 
@@ -77,7 +78,7 @@ void run_one(const RunPlan& plan, const SubjectModel& model, Benches& benches, R
     on_progress(triangle_count(scene));
   } else if (testcase.metamorphosis != nullptr) {
     result.trial = try_metamorphosis(*testcase.metamorphosis, subject, model.rules(1),
-                                     find_known_deviation(plan.known_deviations, result.subject),
+                                     find_known_deviation(plan.known_deviations, result.subject, result.device),
                                      {plan.count, plan.seed, on_progress});
   } else {
     result.trial = try_generator(*testcase.generator, subject, model.rules(testcase.generator->setting.samples()),
@@ -116,8 +117,8 @@ tl::expected<std::vector<RunResult>, Error> run(const RunPlan& plan,
   for (const std::string& name : plan.subjects) {
     auto subject = make_subject(name);
     if (!subject) return tl::unexpected(subject.error());
-    // What is predicted in full needs no rules.
-    const bool predicted = find_known_deviation(plan.known_deviations, name) != nullptr;
+    const KnownDeviation* deviation = find_known_deviation(plan.known_deviations, name, (*subject)->info().device);
+    const bool predicted = deviation != nullptr && deviation->replaces_rules();
     auto model = predicted ? SubjectModel::declared(**subject) : SubjectModel::find(**subject, clip_space);
     if (!model) return tl::unexpected(model.error());
     models.emplace(name, std::move(*model));
