@@ -125,7 +125,7 @@ TEST(ClipperSearch, SkipsClipSpaceWithThatReason) {
   auto reference = reference_for("modelled", &*model);
   ASSERT_TRUE(reference) << reference.error().message;
   Scene scene;
-  scene.clip.emplace();
+  scene.clip = ClipGeometry{{0, 0, 32, 32}, {{{{0, 0, 0, 1}, {2, 0, 0, 1}, {0, 1, 0, 1}}}}};
   const auto refusal = Judge(other, *reference, nullptr).refusal(scene);
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->find("no known clipper explains it: "), 0u) << *refusal;
