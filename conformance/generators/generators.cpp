@@ -16,6 +16,8 @@ constexpr std::string_view kNeedle =
     "needles 16,000 px long, a subpixel or two wide, within a subpixel of the centres of a whole row or column";
 constexpr std::string_view kInside =
     "triangles in clip space that stay inside this viewport, ties of the snap among them";
+constexpr std::string_view kClippedFar =
+    "triangles in clip space of a viewport that reaches thousands of pixels to the left and above";
 constexpr std::string_view kClipped =
     "triangles in clip space across one or more planes: w = 1, w > 0 varying, w of either sign";
 
@@ -129,6 +131,11 @@ std::span<const Generator> generators() {
                 "coordinates at both ends of 16 integer bits, and near the target",
                 {},
                 families::range_ends},
+      Generator{"viewport_ends",
+                "hard",
+                "the same at -8,192 and 8,192 px, between which a viewport of 16,384 px lies",
+                {},
+                families::viewport_ends},
       Generator{"border16", "hard", "triangles that end at a sample on or next to its pixel's border",
                 sized({8, 8}, 16), families::border_samples},
   };
@@ -160,6 +167,9 @@ std::span<const Generator> clip_generators() {
       Generator{"clip_fractional", "clip", kClipped, {}, families::clip, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
       Generator{"clip_flipped", "clip", kClipped, {}, families::clip, Viewport{3.3F, 30.1F, 27.3F, -37.7F}},
       Generator{"clip_larger", "clip", kClipped, {}, families::clip, Viewport{-40, -30, 100, 75}},
+      Generator{"clip_far", "clip", kClippedFar, {}, families::clip_far, Viewport{-7950, -6960, 8000, 7000}},
+      Generator{"clip_far_samples4", "clip", kClippedFar, multisampled(4), families::clip_far,
+                Viewport{-7940.5F, -6960.25F, 8000.25F, 7000.75F}},
       Generator{"clip_samples4", "clip", kClipped, multisampled(4), families::clip,
                 Viewport{2.5005F, 1.5015F, 20.25F, 26.75F}},
   };

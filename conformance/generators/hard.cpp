@@ -117,22 +117,37 @@ void spokes(const Lattice& lattice, Random& random, Scene& scene) {
   }
 }
 
-// Coordinates at the ends of the range, or within a few units of them, and about the target: 16 integer bits.
-void range_ends(const Lattice& lattice, Random& random, Scene& scene) {
-  const std::int64_t limit = 32768 * lattice.pixel();
+namespace {
+
+// Coordinates from -limit to last: at these ends, or within 64 px of them, and about the target.
+void ends(const Lattice& lattice, Random& random, std::int64_t limit, std::int64_t last, Scene& scene) {
   const auto coordinate = [&](std::int64_t extent) {
     if (random.one_in(4)) return random.between(-lattice.pixel(), extent + lattice.pixel());
     const std::int64_t inward = random.one_in(2) ? 0 : random.between(0, 64 * lattice.pixel());
-    return random.one_in(2) ? limit - 1 - inward : inward - limit;
+    return random.one_in(2) ? last - inward : inward - limit;
   };
   const auto point = [&] { return LatticePoint{coordinate(lattice.width()), coordinate(lattice.height())}; };
   const LatticePoint a = point();
   LatticePoint b = point();
-  if (random.one_in(4)) {  // its mirror image in a pixel's centre, less a subpixel where that would leave the range
+  if (random.one_in(4)) {  // its mirror image in a pixel's centre, as far as the range lets it
     const LatticePoint centre = lattice.to_centre(lattice.anywhere(random, -lattice.pixel()));
-    b = {std::clamp(2 * centre.x - a.x, -limit, limit - 1), std::clamp(2 * centre.y - a.y, -limit, limit - 1)};
+    b = {std::clamp(2 * centre.x - a.x, -limit, last), std::clamp(2 * centre.y - a.y, -limit, last)};
   }
   append(lattice, random, {a, b, point()}, scene);
+}
+
+}  // namespace
+
+// 16 integer bits.
+void range_ends(const Lattice& lattice, Random& random, Scene& scene) {
+  const std::int64_t limit = 32768 * lattice.pixel();
+  ends(lattice, random, limit, limit - 1, scene);
+}
+
+// As far as the drivers go that have viewports of 16,384 px.
+void viewport_ends(const Lattice& lattice, Random& random, Scene& scene) {
+  const std::int64_t limit = 8192 * lattice.pixel();
+  ends(lattice, random, limit, limit, scene);
 }
 
 // A triangle of less than a pixel to a few pixels about a sample that lies on or next to its pixel's border: its box

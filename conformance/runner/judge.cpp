@@ -67,8 +67,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
 tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
-    const bool concerned = deviation_ != nullptr && !batch.scene.clip &&
-                           deviation_->may_concern(batch.scene.setting, batch.scene.triangles[i]);
+    const bool concerned = may_deviate(batch.scene, i);
     if (all_right && !concerned) continue;
     const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
@@ -116,17 +115,49 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
       WrongSample wrong = *torn;
       wrong.triangle -= first_triangle;
       bool known = deviation_ != nullptr;
-      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) known = as_predicted(batch, i);
+      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) {
+        known = may_deviate(batch.scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected_[i], observed_[i]);
+      }
       if (!known) ++outcome.unexplained;
       add_finding(batch, mesh.first, mesh.count, wrong, known, outcome);
     }
   }
 }
 
+bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
+  if (deviation_ == nullptr) return false;
+  if (!scene.clip) return deviation_->may_concern(scene.setting, scene.triangles[triangle]);
+  const WindowScene& window = reference_.window();
+  const auto parts = std::span(window.scene.triangles).subspan(window.first[triangle], window.parts_of(triangle));
+  return std::ranges::any_of(parts,
+                             [&](const Triangle& part) { return deviation_->may_concern(window.scene.setting, part); });
+}
+
 bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   predicted_.resize(observed_[triangle].size());
-  deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  if (batch.scene.clip) {
+    predict_clipped(triangle);
+  } else {
+    deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  }
   return std::ranges::equal(predicted_, observed_[triangle]);
+}
+
+// What the deviation makes of the triangles that clipping left, where it concerns them, and the rules where it does
+// not.
+void Judge::predict_clipped(std::size_t triangle) {
+  const WindowScene& window = reference_.window();
+  const std::size_t first = window.first[triangle];
+  parts_.reset(MaskLayout(window.scene.setting), window.parts_of(triangle));
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Triangle& part = window.scene.triangles[first + i];
+    if (deviation_->may_concern(window.scene.setting, part)) {
+      deviation_->predict(window.scene.setting, part, parts_[i]);
+    } else {
+      std::ranges::copy(reference_.part(first + i), parts_[i].begin());
+    }
+  }
+  unite_parts(window, triangle, parts_, 0, predicted_);
 }
 
 // The triangles that clipping left are drawn together: the first of them bears the masks of them all.

@@ -45,6 +45,8 @@ class Reference {
 
   /// The last scene, which was in clip space, as the model has it in the window: what an exact rasterizer has to cover.
   const WindowScene& window() const { return *window_; }
+  /// What the rules cover of triangle `index` of its scene.
+  MaskView part(std::size_t index) const { return parts_[index]; }
 
   /// Gives triangle `index` of `scene`, the last one given to expect(), to both oracles, or in clip space all that the
   /// model makes of it; an error if one of them differs from `must`.

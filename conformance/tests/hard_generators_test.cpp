@@ -98,17 +98,20 @@ TEST(HardGenerators, FansHaveThousandsOfSpokes) {
 }
 
 TEST(HardGenerators, CoordinatesTouchBothEndsOfTheRange) {
-  std::map<float, int> seen;
-  for (const Triangle& t : scenes("range_ends", 300).triangles) {
-    for (const Position& p : t) {
-      ++seen[p.x];
-      ++seen[p.y];
+  for (const auto& [name, low, high] :
+       {std::tuple("range_ends", -32768.0F, 32767.99609375F), std::tuple("viewport_ends", -8192.0F, 8192.0F)}) {
+    std::map<float, int> seen;
+    for (const Triangle& t : scenes(name, 300).triangles) {
+      for (const Position& p : t) {
+        ++seen[p.x];
+        ++seen[p.y];
+      }
     }
+    EXPECT_EQ(seen.begin()->first, low);
+    EXPECT_EQ(seen.rbegin()->first, high);
+    EXPECT_GT(seen.begin()->second, 100) << name;
+    EXPECT_GT(seen.rbegin()->second, 100) << name;
   }
-  EXPECT_EQ(seen.begin()->first, -32768.0F);
-  EXPECT_EQ(seen.rbegin()->first, 32767.99609375F);
-  EXPECT_GT(seen.begin()->second, 100);
-  EXPECT_GT(seen.rbegin()->second, 100);
 }
 
 TEST(HardGenerators, BoxesEndAtEverySampleOnAPixelsBorder) {
