@@ -36,7 +36,7 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 std::optional<std::string> Judge::refusal(const Scene& scene) const {
   if (auto refused = subject_.refusal(scene)) return refused;
-  if (!reference_.judges(scene)) return "no model of its clipper and transform is known";
+  if (!reference_.judges(scene)) return reference_.unjudged();
   return std::nullopt;
 }
 

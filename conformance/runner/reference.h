@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -23,13 +24,14 @@ inline constexpr std::uint64_t kOracleShare = 256;
 class Reference {
  public:
   /// `fast` answers in bulk, and the oracles judge it; without it the oracle by definition answers for every triangle.
-  /// `model` says what the subject's clipper and transform do, and may be null: then clip space is judged only where it
-  /// has exact_window_triangles.
-  explicit Reference(std::unique_ptr<Subject> fast, const TransformModel* model = nullptr)
-      : fast_(std::move(fast)), model_(model) {}
+  /// `model` says what the subject's clipper and transform do; without it clip space is judged only where it has
+  /// exact_window_triangles, and `unjudged` says why.
+  explicit Reference(std::unique_ptr<Subject> fast, std::optional<TransformModel> model = {}, std::string unjudged = {})
+      : fast_(std::move(fast)), model_(std::move(model)), unjudged_(std::move(unjudged)) {}
 
   /// Whether expect() can say something about `scene`.
-  bool judges(const Scene& scene) const { return !scene.clip || model_ != nullptr || exact_window_triangles(scene); }
+  bool judges(const Scene& scene) const { return !scene.clip || model_ || exact_window_triangles(scene); }
+  const std::string& unjudged() const { return unjudged_; }
 
   /// Fills `must` with one mask per triangle of `scene`. `first_index` counts on through a run and picks the share that
   /// the oracles check. Of triangles in clip space, it is what the model predicts. An error is a fault of ours: two of
@@ -60,7 +62,8 @@ class Reference {
   void snap_all(const Scene& scene);
 
   std::unique_ptr<Subject> fast_;
-  const TransformModel* model_;
+  std::optional<TransformModel> model_;
+  std::string unjudged_;
   std::optional<WindowScene> window_;
   MaskBatch parts_;
   Scene snapped_;
