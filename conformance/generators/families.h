@@ -28,6 +28,8 @@ Append inside;
 Append clip;
 Append centres;
 Append behind;
+Append clip_fan;
+Append clip_grid;
 Append turned;
 Append strips;
 Append fans;
