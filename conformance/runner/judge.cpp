@@ -12,14 +12,10 @@ namespace {
 
 constexpr std::size_t kFindingsOfAKind = 3;
 
-std::span<const std::uint64_t> words_of(const MaskBatch& masks, std::size_t first, std::size_t count) {
-  const std::size_t words = masks[0].size();
-  return masks.data().subspan(first * words, count * words);
-}
-
-void copy_masks(const MaskLayout& layout, const MaskBatch& from, std::size_t first, std::size_t count, MaskBatch& to) {
+void copy_masks(const MaskLayout& layout, const MaskBatchView& from, std::size_t first, std::size_t count,
+                MaskBatch& to) {
   to.reset(layout, count);
-  std::ranges::copy(words_of(from, first, count), to.data().begin());
+  std::ranges::copy(from.data(first, count), to.data().begin());
 }
 
 Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView expected, MaskView observed,
@@ -41,7 +37,9 @@ std::optional<std::string> Judge::refusal(const Scene& scene) const {
 }
 
 tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
-  if (auto drawn = subject_.draw(batch.scene, observed_); !drawn) return drawn;
+  const auto drawn = subject_.draw_in_place(batch.scene, scratch_);
+  if (!drawn) return tl::unexpected(drawn.error());
+  observed_ = *drawn;
   if (auto known = reference_.expect(batch.scene, first_triangle, expected_); !known) return known;
 
   // What nobody predicts is not compared, and not counted as compared.
@@ -96,20 +94,20 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
 void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   if (batch.scene.meshes.empty()) return;
   if (batch.scene.clip) return judge_clip_meshes(batch, first_triangle, outcome);
-  const double scale = std::ldexp(1.0, batch.scene.rules.subpixel_bits);
+  const float scale = std::ldexp(1.0f, batch.scene.rules.subpixel_bits);
   WatertightChecker checker(batch.scene.setting, batch.scene.rules.subpixel_bits);
+  const bool snapped_already = all_on_grid(batch.scene.triangles, scale);
   for (const Mesh& mesh : batch.scene.meshes) {
-    snapped_.clear();
-    for (std::size_t i = mesh.first; i < mesh.first + mesh.count; ++i) {
-      const Triangle& t = batch.scene.triangles[i];
-      const auto grid_point = [&](const Position& p) {
-        const auto point = on_grid(p, scale);
-        return point ? *point : oracle::snap(batch.scene.rules, p);
-      };
-      snapped_.push_back({grid_point(t[0]), grid_point(t[1]), grid_point(t[2])});
+    snapped_.resize(std::max(snapped_.size(), mesh.count));
+    for (std::size_t i = 0; i < mesh.count; ++i) {
+      for (std::size_t v = 0; v < 3; ++v) {
+        const Position& p = batch.scene.triangles[mesh.first + i][v];
+        snapped_[i][v] = snapped_already ? grid_point(p, scale) : oracle::snap(batch.scene.rules, p);
+      }
     }
     Watertightness found;
-    checker.check(snapped_, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);
+    checker.check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
+                  first_triangle + mesh.first, found);
     outcome.meshes.add(found);
     for (const auto& torn : {found.first_missing, found.first_doubled}) {
       if (!torn) continue;
@@ -146,7 +144,7 @@ void Judge::judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Ou
                                           reference_.near_plane(), triangles, inside);
     if (!bounded) continue;
     Cracks found;
-    count_cracks(setting, inside, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);
+    count_cracks(setting, inside, observed_.data(mesh.first, mesh.count), first_triangle + mesh.first, found);
     outcome.cracks.add(found);
     if (!found.first) continue;
     const bool predicted = std::ranges::none_of(
@@ -197,11 +195,13 @@ void Judge::show_clipped(std::size_t first, std::size_t count, const MaskLayout&
     }
     if (shown.size() == bearers.back()) shown.push_back({});  // nothing is left, and nothing expected
   }
-  for (const auto& [from, to] : {std::pair(&expected_, &finding.expected), std::pair(&observed_, &finding.observed)}) {
-    to->reset(layout, shown.size());
-    std::ranges::fill(to->data(), 0);
-    for (std::size_t i = 0; i < count; ++i) std::ranges::copy((*from)[first + i], (*to)[bearers[i]].begin());
-  }
+  const auto copy_all = [&](const auto& from, MaskBatch& to) {
+    to.reset(layout, shown.size());
+    std::ranges::fill(to.data(), 0);
+    for (std::size_t i = 0; i < count; ++i) std::ranges::copy(from[first + i], to[bearers[i]].begin());
+  };
+  copy_all(expected_, finding.expected);
+  copy_all(observed_, finding.observed);
 }
 
 // What is expected of a torn mesh is what was observed, but with each sample inside covered once.

@@ -92,7 +92,8 @@ class Judge {
   Reference& reference_;
   const KnownDeviation* deviation_;
   MaskBatch expected_;
-  MaskBatch observed_;
+  MaskBatchView observed_;  ///< where the subject has them, or in scratch_
+  MaskBatch scratch_;
   std::vector<std::uint64_t> predicted_;
   MaskBatch parts_;
   std::vector<GridTriangle> snapped_;

@@ -59,13 +59,11 @@ tl::expected<void, Error> Reference::expect_window(const Scene& scene, std::uint
 void Reference::snap_all(const Scene& scene) {
   snapped_.setting = scene.setting;
   snapped_.rules = Rules{scene.rules.subpixel_bits};
-  snapped_.triangles.resize(scene.triangles.size());
-  const double scale = std::ldexp(1.0, scene.rules.subpixel_bits);
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    for (std::size_t v = 0; v < 3; ++v) {
-      const Position& position = scene.triangles[i][v];
-      snapped_.triangles[i][v] = on_grid(position, scale) ? position : snapped(scene.rules, position);
-    }
+  snapped_.triangles = scene.triangles;
+  const float scale = std::ldexp(1.0f, scene.rules.subpixel_bits);
+  if (all_on_grid(scene.triangles, scale)) return;
+  for (Triangle& triangle : snapped_.triangles) {
+    for (Position& position : triangle) position = snapped(scene.rules, position);
   }
 }
 

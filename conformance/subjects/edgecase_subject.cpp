@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "conformance/scene/coordinates.h"
 #include "conformance/subjects/family_subject.h"
 #include "rasterizer/fast/fast.h"
 #include "rasterizer/rasterizer.h"
@@ -27,6 +28,9 @@ using Failure = std::optional<rasterizer::InputError>;
 
 template <class F>
 Failure check_range(const Scene& scene) {
+  // In whatever format of 16 integer bits, none of these rounds to a number outside of it.
+  static_assert(kIntegerBits == 16);
+  if (magnitudes(scene.triangles).largest <= 32767) return std::nullopt;
   rasterizer::FixedTriangle<F> snapped;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
@@ -80,26 +84,43 @@ Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch
   return with_view(scene.setting, target, [&](const auto& view) { return draw_into<F>(view, scene, masks); });
 }
 
+/// The fast rasterizer, and the triangles of its last list: the memory is used again from list to list.
+struct Fast {
+  rasterizer::FastRasterizer rasterizer;
+  std::vector<rasterizer::Triangle> triangles{};
+  std::vector<rasterizer::FixedTriangle<rasterizer::Format16_8>> snapped{};
+};
+
 /// The same in vectors. Vertices on a grid coarser than that of 16.8 lie on that one, too.
 template <class F>
-Failure draw_fast(const rasterizer::FastRasterizer& fast, const Scene& scene, const rasterizer::Target& target,
-                  MaskBatch& masks) {
+Failure draw_fast(Fast& fast, const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
   if constexpr (F::kSubpixelBits > rasterizer::Format16_8::kSubpixelBits) {
     return draw_all<F>(scene, target, masks);
   } else {
     constexpr int kFiner = rasterizer::Format16_8::kSubpixelBits - F::kSubpixelBits;
-    // Those that are culled stay without area.
-    std::vector<rasterizer::FixedTriangle<rasterizer::Format16_8>> triangles(scene.triangles.size());
-    rasterizer::FixedTriangle<F> snapped;
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-      if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
-      if (is_culled<F>(scene.setting, snapped)) continue;
-      for (std::size_t v = 0; v < 3; ++v) {
-        triangles[i][v] = {snapped[v].x.template shifted_left<kFiner>(), snapped[v].y.template shifted_left<kFiner>()};
+    fast.triangles.resize(scene.triangles.size());
+    fast.snapped.resize(scene.triangles.size());
+    std::ranges::transform(scene.triangles, fast.triangles.begin(), to_rasterizer);
+    if constexpr (kFiner == 0) {
+      if (const auto error = rasterizer::snap_list<F>(fast.triangles, fast.snapped)) return error;
+    } else {
+      std::vector<rasterizer::FixedTriangle<F>> coarse(fast.triangles.size());
+      if (const auto error = rasterizer::snap_list<F>(fast.triangles, coarse)) return error;
+      for (std::size_t i = 0; i < coarse.size(); ++i) {
+        for (std::size_t v = 0; v < 3; ++v) {
+          fast.snapped[i][v] = {coarse[i][v].x.template shifted_left<kFiner>(),
+                                coarse[i][v].y.template shifted_left<kFiner>()};
+        }
+      }
+    }
+    if (scene.setting.cull != CullMode::none) {
+      // Those that are culled are left without area.
+      for (auto& triangle : fast.snapped) {
+        if (is_culled<rasterizer::Format16_8>(scene.setting, triangle)) triangle = {};
       }
     }
     return with_view(scene.setting, target, [&](const auto& view) -> Failure {
-      fast.cover_each(triangles, view, masks.data());
+      fast.rasterizer.cover_each(fast.snapped, view, masks.data());
       return std::nullopt;
     });
   }
@@ -108,7 +129,7 @@ Failure draw_fast(const rasterizer::FastRasterizer& fast, const Scene& scene, co
 struct FormatEntry {
   Failure (*check_range)(const Scene&);
   Failure (*draw_all)(const Scene&, const rasterizer::Target&, MaskBatch&);
-  Failure (*draw_fast)(const rasterizer::FastRasterizer&, const Scene&, const rasterizer::Target&, MaskBatch&);
+  Failure (*draw_fast)(Fast&, const Scene&, const rasterizer::Target&, MaskBatch&);
 };
 
 template <std::size_t... Bits>
@@ -123,7 +144,8 @@ constexpr auto kFormatTable = make_formats(std::make_index_sequence<kFormats>())
 
 class EdgecaseSubject : public Subject {
  public:
-  EdgecaseSubject(std::string name, std::optional<rasterizer::FastRasterizer> fast) : fast_(fast) {
+  EdgecaseSubject(std::string name, std::optional<rasterizer::FastRasterizer> fast) {
+    if (fast) fast_ = Fast{*fast};
     info_.name = std::move(name);
     info_.sample_counts.resize(rasterizer::kMaxSamples);
     std::iota(info_.sample_counts.begin(), info_.sample_counts.end(), 1);
@@ -173,7 +195,7 @@ class EdgecaseSubject : public Subject {
 
  private:
   SubjectInfo info_;
-  std::optional<rasterizer::FastRasterizer> fast_;
+  std::optional<Fast> fast_;
 };
 
 }  // namespace
