@@ -140,7 +140,7 @@ void ends(const Lattice& lattice, Random& random, std::int64_t limit, std::int64
 
 // 16 integer bits.
 void range_ends(const Lattice& lattice, Random& random, Scene& scene) {
-  const std::int64_t limit = 32768 * lattice.pixel();
+  const std::int64_t limit = std::min(32768 * lattice.pixel(), std::int64_t{1} << 23);  // of 24 bits, on finer grids, too
   ends(lattice, random, limit, limit - 1, scene);
 }
 
