@@ -74,7 +74,7 @@ Outcome judged(Wrap wrap, const char* name) {
     append_scene(generator, 1, i, batch.scene);
   }
   Llvmpipe subject(wrap);
-  Reference reference(make_subject("edgecase").value(), &lavapipe_model());
+  Reference reference(make_subject("edgecase").value(), lavapipe_model());
   Judge judge(subject, reference, find_known_deviation(listed(), "lavapipe", ""));
   Outcome outcome;
   const auto result = judge.judge(batch, 0, outcome);
