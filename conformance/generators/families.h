@@ -36,6 +36,8 @@ Append viewport_ends;
 Append border_samples;
 Append centres;
 Append behind;
+Append clip_fan;
+Append clip_grid;
 Append turned;
 Append strips;
 Append fans;

@@ -18,6 +18,9 @@ constexpr std::string_view kInside =
     "triangles in clip space that stay inside this viewport, ties of the snap among them";
 constexpr std::string_view kClippedFar =
     "triangles in clip space of a viewport that reaches thousands of pixels to the left and above";
+constexpr std::string_view kClippedFan = "closed fans in clip space across one or more planes, w = 1 or varying";
+constexpr std::string_view kClippedGrid =
+    "grids in clip space across one or more planes, w = 1 or varying (NVlabs/nvdiffrast#225: cracks)";
 constexpr std::string_view kClipped =
     "triangles in clip space across one or more planes: w = 1, w > 0 varying, w of either sign";
 
@@ -162,6 +165,16 @@ std::span<const Generator> clip_generators() {
                 "triangles in clip space inside the view volume, and mirrored through the eye",
                 {},
                 families::behind,
+                Viewport{0, 0, 32, 32}},
+      Generator{"clip_fans", "clip_mesh", kClippedFan, {}, families::clip_fan, Viewport{0, 0, 32, 32}},
+      Generator{"clip_grids", "clip_mesh", kClippedGrid, {}, families::clip_grid, Viewport{0, 0, 32, 32}},
+      Generator{"clip_grids_fractional",
+                "clip_mesh",
+                kClippedGrid,
+                {},
+                families::clip_grid,
+                Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
+      Generator{"clip_grids_samples4", "clip_mesh", kClippedGrid, multisampled(4), families::clip_grid,
                 Viewport{0, 0, 32, 32}},
       Generator{"clip", "clip", kClipped, {}, families::clip, Viewport{0, 0, 32, 32}},
       Generator{"clip_fractional", "clip", kClipped, {}, families::clip, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},

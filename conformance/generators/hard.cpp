@@ -11,7 +11,7 @@ namespace {
 
 void append(const Lattice& lattice, Random& random, std::array<LatticePoint, 3> points, Scene& scene) {
   if (random.one_in(2)) std::swap(points[1], points[2]);
-  std::ranges::rotate(points, points.begin() + random.between(0, 2));
+  std::rotate(points.begin(), points.begin() + random.between(0, 2), points.end());
   scene.triangles.push_back(lattice.triangle(points[0], points[1], points[2]));
 }
 
@@ -97,7 +97,7 @@ void spokes(const Lattice& lattice, Random& random, Scene& scene) {
   std::vector<std::int64_t> places{0, side, 2 * side, 3 * side};
   while (static_cast<std::int64_t>(places.size()) < count) places.push_back(random.between(0, 4 * side - 1));
   std::ranges::sort(places);
-  places.erase(std::ranges::unique(places).begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   const auto on_rim = [&](std::int64_t place) -> LatticePoint {
     const std::int64_t along = place % side;
     switch (place / side) {  // clockwise on the screen, from the upper left corner
@@ -140,7 +140,8 @@ void ends(const Lattice& lattice, Random& random, std::int64_t limit, std::int64
 
 // 16 integer bits.
 void range_ends(const Lattice& lattice, Random& random, Scene& scene) {
-  const std::int64_t limit = std::min(32768 * lattice.pixel(), std::int64_t{1} << 23);  // of 24 bits, on finer grids, too
+  const std::int64_t limit =
+      std::min(32768 * lattice.pixel(), std::int64_t{1} << 23);  // of 24 bits, on finer grids, too
   ends(lattice, random, limit, limit - 1, scene);
 }
 

@@ -39,6 +39,12 @@ Exhibit exhibit(const Finding& finding, const RunResult& run, const RunPlan& pla
   result.must = finding.expected;
   result.observed = finding.observed;
   result.wrong = finding.wrong;
+  if (finding.crack) {
+    result.meaning = finding.wrong.kind == WrongSample::Kind::missing
+                         ? "well inside the mesh before clipping, and covered by none of what clipping left"
+                         : "well inside the mesh before clipping, and covered by more than one part";
+    return result;
+  }
   result.explanation =
       oracle::explain(scene.setting, scene.rules, wrong, finding.wrong.x, finding.wrong.y, finding.wrong.sample);
   return result;
@@ -79,7 +85,8 @@ std::optional<Scene> assembled_scene(const Finding& finding, const RunResult& ru
 const Finding* first_to_show(const Outcome& outcome) {
   const auto unexplained = std::ranges::find(outcome.findings, false, &Finding::known);
   if (unexplained != outcome.findings.end()) return &*unexplained;
-  return outcome.findings.empty() ? nullptr : &outcome.findings.front();
+  const auto known = std::ranges::find(outcome.findings, false, &Finding::crack);
+  return known == outcome.findings.end() ? nullptr : &*known;
 }
 
 std::string reason(const RunResult& run, const KnownDeviation* deviation) {
@@ -148,6 +155,7 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.doubled = outcome.meshes.doubled;
   result.known_triangles = outcome.known_triangles;
   result.unpredicted = outcome.unpredicted;
+  result.cracks = outcome.cracks;
   if (const Finding* first = first_to_show(outcome)) result.first = first_wrong(*first, run, plan);
   result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject, run.device));
   result.seconds = run.trial.seconds;
@@ -199,6 +207,7 @@ tl::expected<void, Error> show_findings(const fs::path& folder, const std::vecto
       shown.command =
           fmt::format("./edgecase run {} --subject {}", (folder / shown.case_file).generic_string(), runs[i].subject);
       shown.known = finding.known;
+      shown.crack = finding.crack;
       const Case repro = reproduction(finding, runs[i], plan);
       if (auto written = write_file_atomically(folder / shown.case_file, write_case(repro)); !written) return written;
       const Exhibit picture = exhibit(finding, runs[i], plan, shown.command);

@@ -95,6 +95,7 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
 
 void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   if (batch.scene.meshes.empty()) return;
+  if (batch.scene.clip) return judge_clip_meshes(batch, first_triangle, outcome);
   const double scale = std::ldexp(1.0, batch.scene.rules.subpixel_bits);
   WatertightChecker checker(batch.scene.setting, batch.scene.rules.subpixel_bits);
   for (const Mesh& mesh : batch.scene.meshes) {
@@ -133,6 +134,28 @@ bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
                              [&](const Triangle& part) { return deviation_->may_concern(window.scene.setting, part); });
 }
 
+// Cracks are no fault by themselves: masks that are as the model of the clipper predicts are judged already. Only where
+// it predicts nothing does nothing explain them.
+void Judge::judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
+  const Setting& setting = batch.scene.setting;
+  const ClipGeometry& geometry = *batch.scene.clip;
+  std::vector<std::uint64_t> inside(MaskLayout(setting).words());
+  for (const Mesh& mesh : batch.scene.meshes) {
+    const auto triangles = std::span(geometry.triangles).subspan(mesh.first, mesh.count);
+    const bool bounded = certainly_inside(setting, batch.scene.rules.subpixel_bits, geometry.viewport,
+                                          reference_.near_plane(), triangles, inside);
+    if (!bounded) continue;
+    Cracks found;
+    count_cracks(setting, inside, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);
+    outcome.cracks.add(found);
+    if (!found.first) continue;
+    const bool predicted = std::ranges::none_of(
+        reference_.unpredicted(), [&](std::size_t i) { return i >= mesh.first && i < mesh.first + mesh.count; });
+    if (!predicted) ++outcome.unexplained;
+    add_crack(batch, mesh, *found.first, inside, predicted, outcome);
+  }
+}
+
 bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   predicted_.resize(observed_[triangle].size());
   if (batch.scene.clip) {
@@ -160,28 +183,74 @@ void Judge::predict_clipped(std::size_t triangle) {
   unite_parts(window, triangle, parts_, 0, predicted_);
 }
 
-// The triangles that clipping left are drawn together: the first of them bears the masks of them all.
-void Judge::show_clipped(std::size_t triangle, const MaskLayout& layout, Finding& finding) const {
+// The triangles that clipping left of one are drawn together: the first of them bears the masks of them all.
+void Judge::show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const {
   const WindowScene& window = reference_.window();
   finding.window.setting = window.scene.setting;
   finding.window.rules = window.scene.rules;
-  for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
-    finding.window.triangles.push_back(window.scene.triangles[i]);
+  std::vector<std::size_t> bearers;
+  std::vector<Triangle>& shown = finding.window.triangles;
+  for (std::size_t triangle = first; triangle < first + count; ++triangle) {
+    bearers.push_back(shown.size());
+    for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
+      shown.push_back(window.scene.triangles[i]);
+    }
+    if (shown.size() == bearers.back()) shown.push_back({});  // nothing is left, and nothing expected
   }
-  if (finding.window.triangles.empty())
-    finding.window.triangles.push_back({});  // nothing is left, and nothing expected
   for (const auto& [from, to] : {std::pair(&expected_, &finding.expected), std::pair(&observed_, &finding.observed)}) {
-    to->reset(layout, finding.window.triangles.size());
+    to->reset(layout, shown.size());
     std::ranges::fill(to->data(), 0);
-    std::ranges::copy((*from)[triangle], (*to)[0].begin());
+    for (std::size_t i = 0; i < count; ++i) std::ranges::copy((*from)[first + i], (*to)[bearers[i]].begin());
   }
+}
+
+// What is expected of a torn mesh is what was observed, but with each sample inside covered once.
+void Judge::add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& wrong, MaskView inside, bool known,
+                      Outcome& outcome) const {
+  if (std::ranges::count(outcome.findings, true, &Finding::crack) >= static_cast<std::ptrdiff_t>(kFindingsOfAKind)) {
+    return;
+  }
+  const auto& all = batch.scene.clip->triangles;
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(mesh.first);
+  Finding finding;
+  finding.crack = true;
+  finding.known = known;
+  finding.wrong = wrong;
+  finding.wrong.triangle = 0;
+  finding.scene.setting = batch.scene.setting;
+  finding.scene.rules = batch.scene.rules;
+  finding.scene.clip =
+      ClipGeometry{batch.scene.clip->viewport, std::vector(begin, begin + static_cast<std::ptrdiff_t>(mesh.count))};
+  finding.scene.meshes = {{0, mesh.count}};
+  show_clipped(mesh.first, mesh.count, MaskLayout(batch.scene.setting), finding);
+  finding.expected = finding.observed;
+  for (std::size_t word = 0; word < inside.size(); ++word) {
+    std::uint64_t open = inside[word];
+    for (std::size_t i = 0; i < finding.expected.size(); ++i) {
+      std::uint64_t& bits = finding.expected[i][word];
+      const std::uint64_t again = bits & inside[word] & ~open;
+      bits &= ~again;
+      open &= ~bits;
+    }
+    finding.expected[0][word] |= open;
+  }
+  finding.part_index = part_of(batch, mesh.first);
+  outcome.findings.push_back(std::move(finding));
+}
+
+std::uint64_t Judge::part_of(const Batch& batch, std::size_t triangle) {
+  std::uint64_t index = 0;
+  for (const Batch::Part& part : batch.parts) {
+    if (part.first <= triangle) index = part.index;
+  }
+  return index;
 }
 
 void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                         Outcome& outcome) const {
   const bool torn_mesh = count > 1;
   const auto alike = std::ranges::count_if(outcome.findings, [&](const Finding& f) {
-    return f.known == known && (f.scene.triangles.size() > 1) == torn_mesh;
+    return !f.crack && f.known == known && (f.scene.triangles.size() > 1) == torn_mesh;
   });
   if (static_cast<std::size_t>(alike) >= kFindingsOfAKind) return;
 
@@ -195,7 +264,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   };
   if (batch.scene.clip) {
     finding.scene.clip = ClipGeometry{batch.scene.clip->viewport, slice(batch.scene.clip->triangles)};
-    show_clipped(first, layout, finding);
+    show_clipped(first, count, layout, finding);
   } else {
     finding.scene.triangles = slice(batch.scene.triangles);
     if (torn_mesh) finding.scene.meshes.push_back({0, count});
@@ -211,9 +280,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   }
   if (batch.scene.clip) finding.wrong.triangle = 0;
   finding.known = known;
-  for (const Batch::Part& part : batch.parts) {
-    if (part.first <= first) finding.part_index = part.index;
-  }
+  finding.part_index = part_of(batch, first);
   outcome.findings.push_back(std::move(finding));
 }
 

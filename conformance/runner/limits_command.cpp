@@ -22,7 +22,7 @@ int limits_command(const DataFiles& data, const LimitsOptions& options) {
     auto subject = make_subject(name);
     if (!subject) return fail(subject.error());
     const std::string device = (*subject)->info().device;
-    auto reference = reference_for(name, device);
+    auto reference = reference_for(name);
     if (!reference) return fail(reference.error());
     const auto limit = find_limit(**subject, (*subject)->info().rules, *reference,
                                   find_known_deviation(*known, name, device), options.seed, kTriangles);

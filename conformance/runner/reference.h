@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "conformance/compare/clip_mesh.h"
 #include "conformance/models/window_scene.h"
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
@@ -37,6 +38,11 @@ class Reference {
   /// the oracles check. Of triangles in clip space, it is what the model predicts. An error is a fault of ours: two of
   /// the three answers differ.
   tl::expected<void, Error> expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
+
+  /// Where the subject's near plane lies, as far as that is known.
+  NearPlane near_plane() const {
+    return model_ && model_->depth == DepthRange::minus_w_to_w ? NearPlane::minus_w : NearPlane::zero;
+  }
 
   /// The triangles of the last scene for which the model does not reach far enough; their masks mean nothing.
   std::span<const std::size_t> unpredicted() const {
