@@ -66,7 +66,7 @@ Functions disassemble(const std::string& file) {
     }
     std::smatch match;
     if (std::regex_match(line, match, header)) {
-      current = &functions[match[2]];
+      current = &(functions[match[2]] = {});  // a library may hold an inline function several times
       places[section][std::stol(match[1], nullptr, 16)] = match[2];
     } else if (std::regex_match(line, match, member)) {
       member_name = match[1];
