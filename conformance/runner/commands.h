@@ -44,6 +44,7 @@ struct ExhaustOptions {
   std::string subject = "edgecase";
   std::string json;
   std::string state;
+  std::string report;
   int jobs = 1;
 };
 

@@ -32,16 +32,23 @@ struct Batch {
   std::vector<std::uint64_t> may;
 };
 
+/// A change that must not matter, and did.
+struct Change {
+  std::string about;
+  Triangle before;  ///< what the finding's triangles cover together was this one's
+};
+
 /// One wrong sample with all it takes to show it: the triangle alone, or the mesh if it is the mesh that is torn.
 struct Finding {
   Scene scene;
-  Scene window;  ///< the scene, or what the subject's model makes of it in the window
+  Scene window;  ///< the scene, or what the subject's model or a change makes of it in the window
   MaskBatch expected;
   MaskBatch observed;
   WrongSample wrong;             ///< its triangle counts in `window`
   std::uint64_t part_index = 0;  ///< the generator's scene number
   bool known = false;            ///< predicted by a known deviation's model
-  bool crack = false;            ///< a mesh that clipping tore; known if the model of the clipper predicts it
+  std::optional<Change> change{};
+  bool crack = false;  ///< a mesh that clipping tore; known if the model of the clipper predicts it
 };
 
 /// What came of one subject on one case or generator. Sums up over batches.

@@ -68,6 +68,8 @@ void add_exhaust(CLI::App& app, ExhaustOptions& options) {
       ->type_name("WxH");
   exhaust->add_option("--subject", options.subject, "Rasterizer under test")->type_name("S")->capture_default_str();
   exhaust->add_option("--json", options.json, "Write the result as JSON")->type_name("FILE");
+  exhaust->add_option("--report", options.report, "Folder for a picture and a reproduction of what is wrong first")
+      ->type_name("DIR");
   exhaust->add_option("--state", options.state, "Keep there how far it has come, and go on from there")
       ->type_name("FILE");
   exhaust->add_option("--jobs", options.jobs, "Threads")

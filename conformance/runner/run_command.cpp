@@ -72,17 +72,6 @@ tl::expected<void, Error> keep_categories(const DataFiles& data, const std::vect
                                                                 fmt::join(names, "\" or \""))});
 }
 
-// A folder that cannot be written is found out before an hour of comparing, not after.
-std::optional<Error> unwritable(const std::string& folder) {
-  if (folder.empty()) return std::nullopt;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
-  if (!error && access(folder.c_str(), W_OK | X_OK) != 0) error = std::error_code(errno, std::generic_category());
-  if (!error) return std::nullopt;
-  return Error{ErrorKind::bad_input, fmt::format("report folder {}: {}", folder, error.message())};
-}
-
 struct Selection {
   std::vector<Case> cases;
   RunPlan plan;  ///< its testcases point into `cases`

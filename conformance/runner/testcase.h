@@ -33,8 +33,6 @@ struct Trial {
   std::optional<std::string> skipped;
   /// Set if the subject was judged by its own way of snapping because the case's would have it cover other samples.
   std::optional<std::string> own_snap;
-  /// What a metamorphosis changed first that it must not.
-  std::optional<std::string> changed;
   std::optional<Error> failure;  ///< the subject crashed, or the suite contradicts itself
   double seconds = 0;
   double subject_seconds = 0;  ///< of these, inside the subject's own drawing

@@ -172,7 +172,7 @@ TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
   expect_one_line(run("run --category fan --generator ties"), 2, "is of category \"fan\"");
   const Outcome caught = run("run --category metamorphic --count 4000 --subject fault:all-exclusive");
   EXPECT_EQ(caught.status, 1);
-  EXPECT_THAT(caught.out, HasSubstr("before and not after"));
+  EXPECT_THAT(caught.out, HasSubstr("covered before the change, and not after it"));
 }
 
 TEST_F(CommandLine, FindsTheLimitsOfSubjects) {
@@ -253,6 +253,13 @@ TEST_F(CommandLine, ExhaustsALatticeAlsoAfterBeingKilled) {
   EXPECT_EQ(json["samples_compared"], 85'320 * 16);
   EXPECT_GT(json["wrong"], 0);
   EXPECT_GT(json["seconds"], 0);
+  EXPECT_EQ(json["missing"].get<int>() + json["unexpected"].get<int>(), json["wrong"].get<int>());
+  EXPECT_EQ(run("exhaust --lattice-bits 1 --target 2x2 --subject fault:right-inclusive --report r").status, 1);
+  EXPECT_THAT(slurp(folder_ / "r/index.html"), HasSubstr("exhaustion.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "r/exhaustion.svg"));
+  EXPECT_EQ(run("run r/exhaustion.json --subject fault:right-inclusive").status, 1);
+  EXPECT_EQ(run("run r/exhaustion.json --subject edgecase").status, 0);
+  expect_one_line(run("exhaust --lattice-bits 1 --target 2x2 --report /proc/none"), 2, "/proc/none");
   expect_one_line(run("exhaust --lattice-bits 1 --target 13x5"), 2, "13x5");
   EXPECT_EQ(run("exhaust --target 4x").status, 2);
   EXPECT_EQ(run("exhaust --target 65x1").status, 2);
