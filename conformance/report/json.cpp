@@ -36,6 +36,7 @@ Json to_value(const Result& result) {
           {"doubled", result.doubled},
           {"known_triangles", result.known_triangles},
           {"unpredicted", result.unpredicted},
+          {"may", result.may},
           {"first", to_value(result.first)},
           {"reason", text_or_null(result.reason)},
           {"seconds", result.seconds},
@@ -47,7 +48,7 @@ Json to_value(const Totals& totals) {
           {"known", totals.known},         {"skip", totals.skip},
           {"triangles", totals.triangles}, {"samples_compared", totals.samples_compared},
           {"missing", totals.missing},     {"unexpected", totals.unexpected},
-          {"doubled", totals.doubled}};
+          {"doubled", totals.doubled},     {"may", totals.may}};
 }
 
 }  // namespace
@@ -59,6 +60,7 @@ std::string to_json(const Report& report) {
   totals["seconds"] = report.seconds;
   const Json root = {{"edgecase", report.version},
                      {"seed", report.seed},
+                     {"rules", report.rules},
                      {"results", std::move(results)},
                      {"totals", std::move(totals)}};
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -20,6 +20,7 @@ struct Totals {
   std::uint64_t missing = 0;
   std::uint64_t unexpected = 0;
   std::uint64_t doubled = 0;
+  std::uint64_t may = 0;
 
   std::uint64_t cases() const { return pass + fail + known + skip; }
   void add(const Result& result);

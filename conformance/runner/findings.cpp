@@ -122,8 +122,9 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.doubled = outcome.meshes.doubled;
   result.known_triangles = outcome.known_triangles;
   result.unpredicted = outcome.unpredicted;
+  result.may = outcome.may;
   if (const Finding* first = first_to_show(outcome)) result.first = first_wrong(*first, run, plan);
-  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject));
+  result.reason = reason(run, excuse(plan, run.subject));
   result.seconds = run.trial.seconds;
   result.subject_seconds = run.trial.subject_seconds;
   return result;
@@ -134,6 +135,9 @@ Case reproduction(const Finding& finding, const RunResult& run, const RunPlan& p
   result.about = fmt::format("{} deviates: {}", run.subject, describe(finding.wrong));
   result.source = origin(finding, run, plan);
   result.scene = finding.scene;
+  result.rule_set = finding.rule_set;
+  // What was expected are the samples nearest to the observed ones among those that are legal: no demand.
+  if (!finding.rule_set->exact()) return result;
   const MaskLayout layout(finding.scene.setting);
   if (finding.scene.clip || std::max(layout.target.width, layout.target.height) > kMostReadableExtent) return result;
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace edgecase::conformance {
 
 /// One in this many triangles that our fast rasterizer answers for is given to both oracles as well.
 inline constexpr std::uint64_t kOracleShare = 256;
+
+/// The vertices as hexadecimal floats.
+std::string coordinates(const Triangle& triangle);
 
 class Reference {
  public:

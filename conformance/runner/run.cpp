@@ -1,5 +1,7 @@
 #include "conformance/runner/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -16,8 +18,10 @@ namespace {
 // Our own rasterizer is judged by the oracle, on every triangle; it stands in for the oracle against everybody else.
 bool is_ours(const std::string& subject) { return subject == "edgecase" || subject.starts_with("edgecase:"); }
 
-// Ours snap as the scene asks or as they claim, and what a model predicts in full needs no rule; drivers are found out.
-tl::expected<Rules, Error> rules_of(Subject& subject, const KnownDeviation* deviation) {
+// Ours snap as the scene asks or as they claim, and what a model predicts in full needs no rule; drivers are found out,
+// unless the set of rules leaves them the choice.
+tl::expected<Rules, Error> rules_of(Subject& subject, const KnownDeviation* deviation, const RuleSet& rule_set) {
+  if (!rule_set.exact()) return Rules{rule_set.subpixel_bits(subject.info().rules.subpixel_bits)};
   if (subject.info().device.empty() || deviation != nullptr) return subject.info().rules;
   return find_snap(subject);
 }
@@ -44,8 +48,8 @@ class Benches {
       if (!subject) return tl::unexpected(subject.error());
       auto reference = reference_for(name, (*subject)->info().device);
       if (!reference) return tl::unexpected(reference.error());
-      const KnownDeviation* deviation = find_known_deviation(plan_.known_deviations, name);
-      auto rules = rules_of(**subject, deviation);
+      const KnownDeviation* deviation = excuse(plan_, name);
+      auto rules = rules_of(**subject, deviation, *plan_.rule_set);
       if (!rules) return tl::unexpected(rules.error());
       bench = std::make_unique<Bench>(std::move(*subject), *rules, std::move(*reference), deviation);
     }
@@ -66,21 +70,30 @@ void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
   }
   Subject& subject = *(*bench)->subject;
   result.device = subject.info().device;
-  result.snap = describe_snap((*bench)->rules);
+  const RuleSet& rule_set = *plan.rule_set;
+  result.snap = rule_set.exact()
+                    ? describe_snap((*bench)->rules)
+                    : fmt::format("{} subpixel bits, as {} allows", (*bench)->rules.subpixel_bits, rule_set.name);
   if (result.testcase.file != nullptr) {
-    result.trial = try_case(*result.testcase.file, subject, (*bench)->rules, (*bench)->judge);
+    result.trial = try_case(*result.testcase.file, subject, (*bench)->rules, rule_set, (*bench)->judge);
     on_progress(triangle_count(result.testcase.file->scene));
+  } else if (result.testcase.metamorphosis != nullptr && rule_set.on_edge != OnEdge::top_left) {
+    result.trial.skipped = fmt::format("{} does not say that samples on edges are covered alike", rule_set.name);
+    on_progress(result.testcase.triangles(plan.count));
   } else if (result.testcase.metamorphosis != nullptr) {
     result.trial = try_metamorphosis(*result.testcase.metamorphosis, subject, (*bench)->rules,
-                                     find_known_deviation(plan.known_deviations, result.subject),
-                                     {plan.count, plan.seed, on_progress});
+                                     excuse(plan, result.subject), {plan.count, plan.seed, on_progress});
   } else {
-    result.trial = try_generator(*result.testcase.generator, subject, (*bench)->rules, (*bench)->judge,
+    result.trial = try_generator(*result.testcase.generator, subject, (*bench)->rules, rule_set, (*bench)->judge,
                                  {plan.count, plan.seed, on_progress});
   }
 }
 
 }  // namespace
+
+const KnownDeviation* excuse(const RunPlan& plan, const std::string& subject) {
+  return plan.rule_set->exact() ? find_known_deviation(plan.known_deviations, subject) : nullptr;
+}
 
 const std::vector<std::string>& default_subjects() {
   static const std::vector<std::string> names{"edgecase", "lavapipe", "osmesa-llvmpipe", "osmesa-softpipe"};

@@ -97,15 +97,15 @@ TEST(JsonReport, HasEveryKeyInTheDesignsOrder) {
     for (const auto& [key, value] : object.items()) names.push_back(key);
     return names;
   };
-  EXPECT_THAT(keys(root), ElementsAre("edgecase", "seed", "results", "totals"));
+  EXPECT_THAT(keys(root), ElementsAre("edgecase", "seed", "rules", "results", "totals"));
   ASSERT_EQ(root["results"].size(), 4u);
   for (const auto& result : root["results"]) {
     EXPECT_THAT(keys(result), ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles",
-                                          "samples_compared", "missing", "unexpected", "doubled", "known_triangles", "unpredicted",
+                                          "samples_compared", "missing", "unexpected", "doubled", "known_triangles", "unpredicted", "may",
                                           "first", "reason", "seconds", "subject_seconds"));
   }
   EXPECT_THAT(keys(root["totals"]), ElementsAre("pass", "fail", "known", "skip", "triangles", "samples_compared",
-                                                "missing", "unexpected", "doubled", "seconds"));
+                                                "missing", "unexpected", "doubled", "may", "seconds"));
   EXPECT_THAT(keys(root["results"][1]["first"]),
               ElementsAre("kind", "triangle", "x", "y", "sample", "text", "vertices", "command"));
 }
@@ -117,7 +117,7 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["results"][0], json::parse(R"j({
       "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "snap": null, "case": "cases/a.json", "category": "edges",
       "verdict": "pass", "triangles": 4, "samples_compared": 1024, "missing": 0, "unexpected": 0, "doubled": 0,
-      "known_triangles": 0, "unpredicted": 0, "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
+      "known_triangles": 0, "unpredicted": 0, "may": 0, "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
 })j"));
   EXPECT_EQ(root["results"][1]["verdict"], "fail");
   EXPECT_EQ(root["results"][1]["device"], nullptr);
@@ -131,7 +131,7 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["results"][3]["reason"], "16 samples are not supported");
   EXPECT_EQ(root["totals"], json::parse(R"j({
       "pass": 1, "fail": 1, "known": 1, "skip": 1, "triangles": 12, "samples_compared": 3072, "missing": 3,
-      "unexpected": 1, "doubled": 2, "seconds": 1.5})j"));
+      "unexpected": 1, "doubled": 2, "may": 0, "seconds": 1.5})j"));
 }
 
 TEST(JsonReport, TakesAnyBytes) {
@@ -186,7 +186,7 @@ TEST(TextReport, ExplainsWhatDidNotPass) {
                               "  to see it again: edgecase run 'left edge.json' --subject softpipe\n"));
   EXPECT_THAT(text, HasSubstr("\nknown softpipe: cases/b.json\n  breaks ties to the right\n"));
   EXPECT_THAT(text, HasSubstr("\nskip lavapipe: cases/c.json\n  16 samples are not supported\n"));
-  EXPECT_THAT(text, HasSubstr("\n1 passed, 1 failed, 1 known to deviate, 1 skipped, in 1.5 s (seed "
+  EXPECT_THAT(text, HasSubstr("\n1 passed, 1 failed, 1 known to deviate, 1 skipped, in 1.5 s (rules exact, seed "
                               "18446744073709551615).\n"));
 }
 
