@@ -8,6 +8,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "conformance/compare/clip_mesh.h"
 #include "conformance/compare/compare.h"
 #include "conformance/compare/watertight.h"
 #include "conformance/runner/known_deviations.h"
@@ -44,12 +45,14 @@ struct Finding {
   std::uint64_t part_index = 0;  ///< the generator's scene number
   bool known = false;            ///< predicted by a known deviation's model
   const RuleSet* rule_set = &kExactRules;
+  bool crack = false;  ///< a mesh that clipping tore; known if the model of the clipper predicts it
 };
 
 /// What came of one subject on one case or generator. Sums up over batches.
 struct Outcome {
   Comparison triangles;
   Watertightness meshes;
+  Cracks cracks;                      ///< of meshes in clip space
   std::uint64_t known_triangles = 0;  ///< wrong as predicted
   std::uint64_t unpredicted = 0;      ///< in clip space beyond the reach of the model; not compared
   std::uint64_t may = 0;              ///< samples that the rule set leaves open, covered otherwise than by Rules
@@ -78,14 +81,23 @@ class Judge {
   /// By the other method.
   tl::expected<void, Error> confirm_choices(const Batch& batch, std::size_t triangle, MaskView asked, MaskView must,
                                             MaskView may) const;
-  tl::expected<void, Error> judge_triangles(const Batch& batch, Outcome& outcome);
+  tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
   void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  /// Whether the known deviation may concern that triangle of the scene last given to the reference.
+  bool may_deviate(const Scene& scene, std::size_t triangle) const;
+  void judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);
   void add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                    Outcome& outcome) const;
 
-  void show_clipped(std::size_t triangle, const MaskLayout& layout, Finding& finding) const;
+  void predict_clipped(std::size_t triangle);
+  void show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const;
+  /// The generator's scene number of that triangle of the batch.
+  static std::uint64_t part_of(const Batch& batch, std::size_t triangle);
+  /// `inside` is what has to be covered once.
+  void add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& wrong, MaskView inside, bool known,
+                 Outcome& outcome) const;
 
   Subject& subject_;
   Reference& reference_;
@@ -94,6 +106,7 @@ class Judge {
   MaskBatch observed_;
   std::optional<Scene> window_;
   std::vector<std::uint64_t> predicted_;
+  MaskBatch parts_;
   std::vector<GridTriangle> snapped_;
 };
 
