@@ -17,12 +17,27 @@ Append refinement;
 Append uniform;
 Append ties;
 Append range;
+Append far_corner;
 Append sliver;
 Append tiny;
 Append sample_ties;
+Append around_samples;
 Append floats;
 Append float_ties;
 Append inside;
 Append clip;
+Append clip_far;
+Append far_rectangle;
+Append straddle;
+Append needle;
+Append spokes;
+Append range_ends;
+Append viewport_ends;
+Append border_samples;
+Append centres;
+Append behind;
+Append turned;
+Append strips;
+Append fans;
 
 }  // namespace edgecase::conformance::families

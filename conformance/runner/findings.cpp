@@ -59,6 +59,23 @@ FirstWrong first_wrong(const Finding& finding, const RunResult& run, const RunPl
   return first;
 }
 
+// What a strip or a fan covers may hang on every vertex and restart before, so that it is shown whole, and behind the
+// one before it, which a restart has to end.
+std::optional<Scene> assembled_scene(const Finding& finding, const RunResult& run, const RunPlan& plan) {
+  Scene scene;
+  if (run.testcase.generator != nullptr) {
+    scene.setting = finding.scene.setting;
+    const std::uint64_t before = std::max<std::uint64_t>(finding.part_index, 1) - 1;
+    for (std::uint64_t i = before; i <= finding.part_index; ++i) {
+      append_scene(*run.testcase.generator, plan.seed, i, scene);
+    }
+  } else {
+    scene = run.testcase.file->scene;
+  }
+  scene.rules = finding.scene.rules;
+  return scene.assembly ? std::optional(std::move(scene)) : std::nullopt;
+}
+
 const Finding* first_to_show(const Outcome& outcome) {
   const auto unexplained = std::ranges::find(outcome.findings, false, &Finding::known);
   if (unexplained != outcome.findings.end()) return &*unexplained;
@@ -96,6 +113,15 @@ Verdict verdict(const Trial& trial) {
 
 }  // namespace
 
+MaskBatch by_the_rules(const Scene& scene) {
+  MaskBatch masks;
+  masks.reset(MaskLayout(scene.setting), scene.triangles.size());
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], masks[i]);
+  }
+  return masks;
+}
+
 Exhibit exhibit_of(const Scene& scene) {
   Exhibit result;
   result.scene = scene;
@@ -123,7 +149,7 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.known_triangles = outcome.known_triangles;
   result.unpredicted = outcome.unpredicted;
   if (const Finding* first = first_to_show(outcome)) result.first = first_wrong(*first, run, plan);
-  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject));
+  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject, run.device));
   result.seconds = run.trial.seconds;
   result.subject_seconds = run.trial.subject_seconds;
   return result;
@@ -134,6 +160,11 @@ Case reproduction(const Finding& finding, const RunResult& run, const RunPlan& p
   result.about = fmt::format("{} deviates: {}", run.subject, describe(finding.wrong));
   result.source = origin(finding, run, plan);
   result.scene = finding.scene;
+  MaskBatch expected = finding.expected;
+  if (auto whole = assembled_scene(finding, run, plan)) {
+    result.scene = std::move(*whole);
+    expected = by_the_rules(result.scene);
+  }
   const MaskLayout layout(finding.scene.setting);
   if (finding.scene.clip || std::max(layout.target.width, layout.target.height) > kMostReadableExtent) return result;
 
@@ -142,8 +173,8 @@ Case reproduction(const Finding& finding, const RunResult& run, const RunPlan& p
     for (int x = 0; x < layout.target.width; ++x) {
       for (int s = 0; s < layout.samples; ++s) {
         int count = 0;
-        for (std::size_t t = 0; t < finding.expected.size(); ++t) {
-          count += covered(finding.expected[t], layout.bit(x, y, s)) ? 1 : 0;
+        for (std::size_t t = 0; t < expected.size(); ++t) {
+          count += covered(expected[t], layout.bit(x, y, s)) ? 1 : 0;
         }
         expect.counts.push_back(static_cast<std::int8_t>(std::min(count, 9)));
       }

@@ -32,7 +32,7 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 std::optional<std::string> Judge::refusal(const Scene& scene) const {
   if (auto refused = subject_.refusal(scene)) return refused;
-  if (scene.clip && !reference_.judges_clip_space()) return "no model of its clipper and transform is known";
+  if (!reference_.judges(scene)) return "no model of its clipper and transform is known";
   return std::nullopt;
 }
 
@@ -54,7 +54,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   comparison.samples_compared -= unpredicted * layout.sample_count();
   outcome.triangles.add(comparison);
   if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
-    if (auto judged = judge_triangles(batch, outcome); !judged) return judged;
+    if (auto judged = judge_triangles(batch, comparison.wrong_triangles == 0, outcome); !judged) return judged;
   }
   judge_meshes(batch, first_triangle, outcome);
   return {};
@@ -62,22 +62,25 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
 
 // Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and every
 // wrong one goes to both oracles before anybody is blamed.
-tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& outcome) {
+tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
+    const bool concerned = may_deviate(batch.scene, i);
+    if (all_right && !concerned) continue;
     const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
+    if (!wrong && !concerned) continue;
     if (wrong) {
       if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
     }
-    const bool known = deviation_ != nullptr && as_predicted(batch, i);
+    const bool known = concerned && as_predicted(batch, i);
     if (wrong && known) {
       ++outcome.known_triangles;
       add_finding(batch, i, 1, *comparison.first, true, outcome);
     } else if (wrong) {
       ++outcome.unexplained;
       add_finding(batch, i, 1, *comparison.first, false, outcome);
-    } else if (deviation_ != nullptr && !known) {
+    } else if (!known) {
       // Right where it is predicted to be wrong: the prediction, or the subject, is no longer what it was.
       const Comparison obsolete = compare_one(layout, batch, predicted_, observed_[i], i);
       if (!obsolete.first) continue;
@@ -110,17 +113,49 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
       WrongSample wrong = *torn;
       wrong.triangle -= first_triangle;
       bool known = deviation_ != nullptr;
-      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) known = as_predicted(batch, i);
+      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) {
+        known = may_deviate(batch.scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected_[i], observed_[i]);
+      }
       if (!known) ++outcome.unexplained;
       add_finding(batch, mesh.first, mesh.count, wrong, known, outcome);
     }
   }
 }
 
+bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
+  if (deviation_ == nullptr) return false;
+  if (!scene.clip) return deviation_->may_concern(scene.setting, scene.triangles[triangle]);
+  const WindowScene& window = reference_.window();
+  const auto parts = std::span(window.scene.triangles).subspan(window.first[triangle], window.parts_of(triangle));
+  return std::ranges::any_of(parts,
+                             [&](const Triangle& part) { return deviation_->may_concern(window.scene.setting, part); });
+}
+
 bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   predicted_.resize(observed_[triangle].size());
-  deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  if (batch.scene.clip) {
+    predict_clipped(triangle);
+  } else {
+    deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  }
   return std::ranges::equal(predicted_, observed_[triangle]);
+}
+
+// What the deviation makes of the triangles that clipping left, where it concerns them, and the rules where it does
+// not.
+void Judge::predict_clipped(std::size_t triangle) {
+  const WindowScene& window = reference_.window();
+  const std::size_t first = window.first[triangle];
+  parts_.reset(MaskLayout(window.scene.setting), window.parts_of(triangle));
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Triangle& part = window.scene.triangles[first + i];
+    if (deviation_->may_concern(window.scene.setting, part)) {
+      deviation_->predict(window.scene.setting, part, parts_[i]);
+    } else {
+      std::ranges::copy(reference_.part(first + i), parts_[i].begin());
+    }
+  }
+  unite_parts(window, triangle, parts_, 0, predicted_);
 }
 
 // The triangles that clipping left are drawn together: the first of them bears the masks of them all.

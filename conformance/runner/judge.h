@@ -67,13 +67,16 @@ class Judge {
   tl::expected<void, Error> judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
 
  private:
-  tl::expected<void, Error> judge_triangles(const Batch& batch, Outcome& outcome);
+  tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
   void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  /// Whether the known deviation may concern that triangle of the scene last given to the reference.
+  bool may_deviate(const Scene& scene, std::size_t triangle) const;
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);
   void add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                    Outcome& outcome) const;
 
+  void predict_clipped(std::size_t triangle);
   void show_clipped(std::size_t triangle, const MaskLayout& layout, Finding& finding) const;
 
   Subject& subject_;
@@ -83,6 +86,7 @@ class Judge {
   MaskBatchView observed_;  ///< where the subject has them, or in scratch_
   MaskBatch scratch_;
   std::vector<std::uint64_t> predicted_;
+  MaskBatch parts_;
   std::vector<GridTriangle> snapped_;
 };
 

@@ -28,7 +28,7 @@ Position snapped(const Rules& rules, const Position& position) {
 tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must) {
   window_.reset();
   if (!scene.clip) return expect_window(scene, first_index, must);
-  window_.emplace(window_scene(*model_, scene));
+  window_.emplace(window_scene(model_ != nullptr ? *model_ : exact_model(scene.rules), scene));
   if (auto parts = expect_window(window_->scene, first_index, parts_); !parts) return parts;
   must.reset(MaskLayout(scene.setting), triangle_count(scene));
   unite(*window_, parts_, must);

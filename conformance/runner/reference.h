@@ -12,6 +12,7 @@
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
+#include "conformance/scene/window_position.h"
 #include "conformance/subjects/subject.h"
 
 namespace edgecase::conformance {
@@ -22,11 +23,13 @@ inline constexpr std::uint64_t kOracleShare = 256;
 class Reference {
  public:
   /// `fast` answers in bulk, and the oracles judge it; without it the oracle by definition answers for every triangle.
-  /// `model` says what the subject's clipper and transform do, and may be null: then clip space cannot be judged.
+  /// `model` says what the subject's clipper and transform do, and may be null: then clip space is judged only where it
+  /// has exact_window_triangles.
   explicit Reference(std::unique_ptr<Subject> fast, const TransformModel* model = nullptr)
       : fast_(std::move(fast)), model_(model) {}
 
-  bool judges_clip_space() const { return model_ != nullptr; }
+  /// Whether expect() can say something about `scene`.
+  bool judges(const Scene& scene) const { return !scene.clip || model_ != nullptr || exact_window_triangles(scene); }
 
   /// Fills `must` with one mask per triangle of `scene`. `first_index` counts on through a run and picks the share that
   /// the oracles check. Of triangles in clip space, it is what the model predicts. An error is a fault of ours: two of
@@ -40,6 +43,8 @@ class Reference {
 
   /// The last scene, which was in clip space, as the model has it in the window: what an exact rasterizer has to cover.
   const WindowScene& window() const { return *window_; }
+  /// What the rules cover of triangle `index` of its scene.
+  MaskView part(std::size_t index) const { return parts_[index]; }
 
   /// Gives triangle `index` of `scene`, the last one given to expect(), to both oracles, or in clip space all that the
   /// model makes of it; an error if one of them differs from `must`.

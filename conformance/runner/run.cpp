@@ -16,9 +16,11 @@ namespace {
 // Our own rasterizer is judged by the oracle, on every triangle; it stands in for the oracle against everybody else.
 bool is_ours(const std::string& subject) { return subject == "edgecase" || subject.starts_with("edgecase:"); }
 
-// Ours snap as the scene asks or as they claim, and what a model predicts in full needs no rule; drivers are found out.
+// Ours snap as the scene asks or as they claim, and a model that replaces the rules needs none; drivers are found out.
 tl::expected<Rules, Error> rules_of(Subject& subject, const KnownDeviation* deviation) {
-  if (subject.info().device.empty() || deviation != nullptr) return subject.info().rules;
+  if (subject.info().device.empty() || (deviation != nullptr && deviation->replaces_rules())) {
+    return subject.info().rules;
+  }
   return find_snap(subject);
 }
 
@@ -44,7 +46,7 @@ class Benches {
       if (!subject) return tl::unexpected(subject.error());
       auto reference = reference_for(name, (*subject)->info().device);
       if (!reference) return tl::unexpected(reference.error());
-      const KnownDeviation* deviation = find_known_deviation(plan_.known_deviations, name);
+      const KnownDeviation* deviation = find_known_deviation(plan_.known_deviations, name, (*subject)->info().device);
       auto rules = rules_of(**subject, deviation);
       if (!rules) return tl::unexpected(rules.error());
       bench = std::make_unique<Bench>(std::move(*subject), *rules, std::move(*reference), deviation);
@@ -72,7 +74,7 @@ void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
     on_progress(triangle_count(result.testcase.file->scene));
   } else if (result.testcase.metamorphosis != nullptr) {
     result.trial = try_metamorphosis(*result.testcase.metamorphosis, subject, (*bench)->rules,
-                                     find_known_deviation(plan.known_deviations, result.subject),
+                                     find_known_deviation(plan.known_deviations, result.subject, result.device),
                                      {plan.count, plan.seed, on_progress});
   } else {
     result.trial = try_generator(*result.testcase.generator, subject, (*bench)->rules, (*bench)->judge,

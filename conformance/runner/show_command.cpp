@@ -19,22 +19,12 @@
 namespace edgecase::conformance {
 namespace {
 
-// What the rules say of the scene, one mask a triangle.
-MaskBatch by_the_rules(const Scene& scene) {
-  MaskBatch masks;
-  masks.reset(MaskLayout(scene.setting), scene.triangles.size());
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], masks[i]);
-  }
-  return masks;
-}
-
 // Draws a case in clip space with the subject beside what the model of its clipper predicts. Mask i is that of the
 // case's triangle i; the outlines are those of what clipping leaves, and may be more or fewer.
 tl::expected<void, Error> add_clipped(const Case& file, const Scene& scene, Subject& subject, Exhibit& exhibit) {
   auto reference = reference_for(subject.info().name, subject.info().device);
   if (!reference) return tl::unexpected(reference.error());
-  if (!reference->judges_clip_space()) {
+  if (!reference->judges(scene)) {
     return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot show {}: no model of its clipper is known",
                                                                   subject.info().name, file.name)});
   }

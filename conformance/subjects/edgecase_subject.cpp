@@ -45,12 +45,6 @@ std::optional<rasterizer::SamplePattern> sample_pattern(const Setting& setting) 
   return rasterizer::SamplePattern::make(locations);
 }
 
-/// One sample in the pixel's centre, on the whole target, and nothing culled.
-bool is_plain(const Setting& setting) {
-  return setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{} && !setting.scissor &&
-         setting.cull == CullMode::none;
-}
-
 /// Whether the setting drops the way that `triangle` faces. That of a degenerate one does not matter.
 template <class F>
 bool is_culled(const Setting& setting, const rasterizer::FixedTriangle<F>& triangle) {
@@ -72,17 +66,22 @@ Failure draw_into(const View& view, const Scene& scene, MaskBatch& masks) {
   return std::nullopt;
 }
 
+/// Calls draw(view) with the view that asks for what `setting` asks for and no more.
+template <class Draw>
+Failure with_view(const Setting& setting, const rasterizer::Target& target, const Draw& draw) {
+  using rasterizer::CentreSample, rasterizer::SamplePattern, rasterizer::Scissor, rasterizer::View;
+  const bool centre = setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{};
+  const auto samples = *sample_pattern(setting);
+  if (!setting.scissor) return centre ? draw(View<>{target}) : draw(View<SamplePattern>{target, samples});
+  const Scissor scissor{setting.scissor->x, setting.scissor->y, setting.scissor->width, setting.scissor->height};
+  return centre ? draw(View<CentreSample, Scissor>{target, {}, scissor})
+                : draw(View<SamplePattern, Scissor>{target, samples, scissor});
+}
+
 template <class F>
 Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
   std::fill(masks.data().begin(), masks.data().end(), std::uint64_t{0});
-  using rasterizer::SamplePattern, rasterizer::Scissor;
-  const Setting& setting = scene.setting;
-  if (is_plain(setting)) return draw_into<F>(rasterizer::View<>{target}, scene, masks);
-  const Rect scissor = setting.scissor.value_or(Rect{0, 0, setting.target.width, setting.target.height});
-  return draw_into<F>(
-      rasterizer::View<SamplePattern, Scissor>{
-          target, *sample_pattern(setting), {scissor.x, scissor.y, scissor.width, scissor.height}},
-      scene, masks);
+  return with_view(scene.setting, target, [&](const auto& view) { return draw_into<F>(view, scene, masks); });
 }
 
 /// The fast rasterizer, and the triangles of its last list: the memory is used again from list to list.
@@ -114,8 +113,15 @@ Failure draw_fast(Fast& fast, const Scene& scene, const rasterizer::Target& targ
         }
       }
     }
-    fast.rasterizer.cover_each(fast.snapped, target, masks.data());
-    return std::nullopt;
+    if (scene.setting.cull != CullMode::none) {
+      for (auto& triangle : fast.snapped) {
+        if (is_culled<rasterizer::Format16_8>(scene.setting, triangle)) triangle = {};  // without area
+      }
+    }
+    return with_view(scene.setting, target, [&](const auto& view) -> Failure {
+      fast.rasterizer.cover_each(fast.snapped, view, masks.data());
+      return std::nullopt;
+    });
   }
 }
 
@@ -179,8 +185,8 @@ class EdgecaseSubject : public Subject {
     const auto target = rasterizer::Target::make(scene.setting.target.width, scene.setting.target.height);
     const auto bits = static_cast<std::size_t>(scene.rules.subpixel_bits);
     const FormatEntry& format = kFormatTable[bits];
-    if (const auto error = fast_ && is_plain(scene.setting) ? format.draw_fast(*fast_, scene, *target, masks)
-                                                            : format.draw_all(scene, *target, masks)) {
+    if (const auto error =
+            fast_ ? format.draw_fast(*fast_, scene, *target, masks) : format.draw_all(scene, *target, masks)) {
       return tl::unexpected(Error{ErrorKind::subject, info_.name + ": " + rasterizer::describe(*error)});
     }
     return {};

@@ -274,7 +274,7 @@ TEST(CaseFileErrors, Clip) {
             "f.json:5: watertight: the field takes window coordinates; the case has clip");
   EXPECT_EQ(clip(R"([[["-1","-1","0","1"],["2","-1","0","1"],["-1","1","0","1"]]])"),
             "f.json:6: expect: clip[0][1] has no exact window position (inside the view volume, w a power of two, no "
-            "rounding), and without that nothing can be expected");
+            "rounding; or every w below 0), and without that nothing can be expected");
 }
 
 TEST(CaseFileErrors, Watertight) {
