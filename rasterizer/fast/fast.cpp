@@ -14,7 +14,7 @@
 #define HWY_TARGET_INCLUDE "rasterizer/fast/fast.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-#include "rasterizer/fast/kernels-inl.h"
+#include "rasterizer/fast/reach-inl.h"
 
 #if HWY_ONCE
 namespace edgecase::rasterizer {
@@ -81,6 +81,17 @@ void FastRasterizer::cover_each(std::span<const FixedTriangle<Format16_8>> trian
   std::vector<std::uint32_t> scratch(layout.words() * at_once + layout.stride);
   kernels_->cover_each(triangles, target.width().value(), at_once, layout.words(),
                        {scratch.data(), layout.stride, layout.count, target.height().value()}, masks.data());
+}
+
+void FastRasterizer::cover_tile(std::span<const FixedTriangle<Format16_8>> triangles, TileMask& mask) const {
+  kernels_->cover_tile(triangles, mask.tile(), mask.strips());
+}
+
+void FastRasterizer::find_reach(std::span<const FixedTriangle<Format16_8>> triangles, const TileGrid& grid,
+                                std::span<std::uint64_t> words) const {
+  assert(words.size() >=
+         (triangles.size() + kReachBlock - 1) / kReachBlock * static_cast<std::size_t>(grid.columns() + grid.rows()));
+  kernels_->find_reach(triangles, grid, words.data());
 }
 
 }  // namespace edgecase::rasterizer

@@ -11,6 +11,8 @@
 #include <string_view>
 
 #include "rasterizer/fast/strip_mask.h"
+#include "rasterizer/fast/tile_grid.h"
+#include "rasterizer/fast/tile_mask.h"
 #include "rasterizer/format.h"
 
 namespace edgecase::rasterizer {
@@ -40,6 +42,15 @@ class FastRasterizer {
   /// target.mask_words() on, laid out as a Mask is. `masks` has that many words for each triangle.
   void cover_each(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target,
                   std::span<std::uint64_t> masks) const;
+
+  /// Adds the coverage of every triangle, as far as it lies in mask.tile(), to `mask`.
+  void cover_tile(std::span<const FixedTriangle<Format16_8>> triangles, TileMask& mask) const;
+
+  /// Which columns and rows of tiles the bounding boxes of triangles reach with a sample: for every kReachBlock
+  /// triangles grid.columns() + grid.rows() words, the columns' first, in which bit i is set if triangle i reaches that
+  /// column or row. A triangle reaches a tile if both bits are set. Writes all these words, which `words` has room for.
+  void find_reach(std::span<const FixedTriangle<Format16_8>> triangles, const TileGrid& grid,
+                  std::span<std::uint64_t> words) const;
 
   /// What a target's kernels look like from outside.
   struct Kernels;

@@ -42,17 +42,34 @@ HWY_INLINE LaneVertices load_vertices(const SnappedTriangle* triangles) {
   return v;
 }
 
-/// Draws kLanes triangles; the one in lane i into the strips that begin i * `apart` words further on.
-HWY_INLINE void draw_group(const SnappedTriangle* triangles, int width, std::size_t apart, const Strips& strips) {
+/// The same with (left, top) as the origin of coordinates: they stay below 2^15 + 2^14 px, which the arithmetic of all
+/// paths allows, as it is in differences, in rows, or in pixels below 2^16 + 1.
+HWY_INLINE LaneVertices load_vertices(const SnappedTriangle* triangles, Point origin) {
+  LaneVertices v = load_vertices(triangles);
+  for (std::size_t i = 0; i < 3; ++i) {
+    v.x[i] = hn::Sub(v.x[i], hn::Set(DI32(), origin.x));
+    v.y[i] = hn::Sub(v.y[i], hn::Set(DI32(), origin.y));
+  }
+  return v;
+}
+
+/// Draws kLanes triangles; the one in lane i into the strips that begin i * `apart` words further on. If kInTile, the
+/// strips are those of a tile with margins, which begins at `origin`, in subpixels.
+template <bool kInTile = false>
+HWY_INLINE void draw_group(const SnappedTriangle* triangles, int width, std::size_t apart, const Strips& strips,
+                           Point origin = {0, 0}) {
   const auto d = DI32();
-  const LaneSetup setup = make_lane_setup(load_vertices(triangles));
+  const LaneSetup setup = make_lane_setup(kInTile ? load_vertices(triangles, origin) : load_vertices(triangles));
   const I32 zero = hn::Zero(d);
   const I32 columns = hn::Sub(setup.right, setup.left);
   const I32 rows = hn::Sub(setup.bottom, setup.top);
   // As with edge functions, a conjunction of conditions "not negative" is the sign of the or.
   const auto room_in = [&](I32 value, int most) { return hn::Sub(hn::Set(d, most), value); };
-  const I32 inside =
-      hn::Or(hn::Or(setup.left, setup.top), hn::Or(room_in(setup.right, width), room_in(setup.bottom, strips.height)));
+  const I32 inside = kInTile ? hn::Or(hn::Or(hn::Add(setup.left, hn::Set(d, kMarginStrips * kStripWidth)),
+                                             hn::Add(setup.top, hn::Set(d, kMarginRows))),
+                                      hn::Or(room_in(setup.left, width - 1), room_in(setup.top, strips.height - 1)))
+                             : hn::Or(hn::Or(setup.left, setup.top),
+                                      hn::Or(room_in(setup.right, width), room_in(setup.bottom, strips.height)));
   const I32 fits = hn::Or(room_in(columns, kSmallColumns), room_in(rows, kSmallRows));
   const I32 minus_one = hn::Set(d, -1);
   const M32 small = hn::Gt(hn::Or(inside, fits), minus_one);
@@ -84,26 +101,33 @@ HWY_INLINE void draw_group(const SnappedTriangle* triangles, int width, std::siz
     if (medium >> lane & 1) {
       draw_medium(stored, lane, own);
     } else {
-      draw_large(triangles[lane], width, own);
+      draw_large(triangles[lane], origin, width, own);
     }
   }
 }
 
 /// Draws any number of triangles.
-inline void draw_list(std::span<const SnappedTriangle> triangles, int width, std::size_t apart, Strips strips) {
+template <bool kInTile = false>
+inline void draw_list(std::span<const SnappedTriangle> triangles, int width, std::size_t apart, Strips strips,
+                      Point origin = {0, 0}) {
   const std::size_t whole = triangles.size() / kLanes * kLanes;
   for (std::size_t i = 0; i < whole; i += kLanes) {
-    draw_group(triangles.data() + i, width, apart, strips);
+    draw_group<kInTile>(triangles.data() + i, width, apart, strips, origin);
     strips.words += kLanes * apart;
   }
   if (whole == triangles.size()) return;
   std::array<SnappedTriangle, kLanes> last{};  // the rest of them without area
   std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(whole), triangles.end(), last.begin());
-  draw_group(last.data(), width, apart, strips);
+  draw_group<kInTile>(last.data(), width, apart, strips, origin);
 }
 
 inline void cover_union(std::span<const SnappedTriangle> triangles, int width, const Strips& strips) {
   draw_list(triangles, width, 0, strips);
+}
+
+inline void cover_tile(std::span<const SnappedTriangle> triangles, const Tile& tile, const Strips& strips) {
+  constexpr int kPixel = 1 << Format16_8::kSubpixelBits;
+  draw_list<true>(triangles, tile.width, 0, strips, {tile.left * kPixel, tile.top * kPixel});
 }
 
 /// A mask as strips, written out as rows. `last_word`: the pixels of a row's last word.
@@ -136,8 +160,6 @@ inline void cover_each(std::span<const SnappedTriangle> triangles, int width, st
     }
   }
 }
-
-inline constexpr FastRasterizer::Kernels kKernels{&cover_union, &cover_each};
 
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -238,9 +238,10 @@ HWY_INLINE void sort_by_y(Point& a, Point& b) {
   a = upper;
 }
 
-inline void draw_large(const FixedTriangle<Format16_8>& triangle, int width, const Strips& strips) {
+/// `origin`, in subpixels, is where the strips begin.
+inline void draw_large(const FixedTriangle<Format16_8>& triangle, Point origin, int width, const Strips& strips) {
   Point v[3];
-  for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value(), triangle[i].y.value()};
+  for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value() - origin.x, triangle[i].y.value() - origin.y};
   sort_by_y(v[0], v[1]);
   sort_by_y(v[1], v[2]);
   sort_by_y(v[0], v[1]);
