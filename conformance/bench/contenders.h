@@ -38,4 +38,7 @@ std::unique_ptr<Contender> make_plain_contender(int bits = 8);
 /// The fast path on one instruction set, all triangles into one strip mask.
 std::unique_ptr<Contender> make_fast_contender(std::string_view name, const rasterizer::FastRasterizer& fast);
 
+/// The same on as many threads as the machine has processors.
+std::unique_ptr<Contender> make_threads_contender();
+
 }  // namespace edgecase::conformance

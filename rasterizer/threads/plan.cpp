@@ -17,7 +17,7 @@ constexpr double kSetup = 6, kRow = 0.6, kPixel = 0.001;  // of drawing a triang
 constexpr double kBin = 2.6, kBinBound = 0.22;            // of binning one, and for each column and row of tiles
 constexpr double kCopy = 1.5;                             // of a triangle in a bin
 constexpr double kCutRows = 60, kCutColumns = 150;        // of a cut through a triangle, at most
-constexpr double kMergeWord = 0.15;                       // of a word of a tile's mask: clearing and adding it
+constexpr double kMergeWord = 0.3;                        // of a word of a tile's mask: clearing and adding it
 constexpr double kStart = 5'000, kStartThread = 500;      // of having threads at all, and of each
 
 /// What a cache line of a mask costs if the mask, of so many bytes, is drawn into anywhere.
@@ -111,11 +111,13 @@ Plan finish_plan(std::span<const Sample> samples, std::size_t triangles, const T
           threads,
           chunk,
           tile_work(samples, grid),
-          kStart + kStartThread * threads + total / threads,
+          start_of_threads(threads) + total / threads,
           2 * kMergeWord * tile_words};
 }
 
 }  // namespace
+
+double start_of_threads(int threads) { return kStart + kStartThread * threads; }
 
 Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads, int columns, int rows) {
   const std::vector<Sample> samples = sample(triangles, target);

@@ -33,6 +33,9 @@ struct Plan {
   double least_help;
 };
 
+/// ns until that many threads work, assumed rather than measured.
+double start_of_threads(int threads);
+
 /// The plan with `columns` by `rows` tiles for exactly `threads` threads.
 Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads, int columns,
                int rows);

@@ -4,13 +4,10 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cstddef>
 #include <vector>
 
-#include "rasterizer/threads/agenda.h"
 #include "rasterizer/threads/tiled_draw.h"
 
 namespace edgecase::rasterizer {
@@ -44,19 +41,7 @@ void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> 
   assert(plan.threads <= static_cast<int>(state_->canvases.size()));
   if (plan.threads <= 1) return state_->fast.cover_union(triangles, mask);
   TiledDraw drawing(state_->fast, triangles, plan, mask, state_->memory);
-  Agenda agenda(plan.tile_work, drawing.chunks(), plan.least_help);
-  alignas(64) std::atomic<std::size_t> next_chunk{0};
-  const std::size_t chunks_to_bin = drawing.binned() ? drawing.chunks() : 0;
-  const auto work = [&](std::size_t worker) {
-    for (std::size_t chunk = next_chunk++; chunk < chunks_to_bin; chunk = next_chunk++) drawing.bin(chunk);
-    TiledDraw::Canvas& canvas = state_->canvases[worker];
-    int tile = -1;
-    while (const auto part = agenda.next(tile)) {
-      tile = part->tile;
-      drawing.draw(tile, part->chunk, canvas);
-    }
-    drawing.finish(canvas);
-  };
+  const auto work = [&](std::size_t worker) { drawing.work(state_->canvases[worker]); };
   state_->arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(plan.threads), work, tbb::simple_partitioner());
   });

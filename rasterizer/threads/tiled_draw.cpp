@@ -18,10 +18,22 @@ TiledDraw::TiledDraw(const FastRasterizer& fast, std::span<const Triangle> trian
       plan_(plan),
       mask_(mask),
       chunks_(divided_up(triangles.size(), plan.chunk)),
-      memory_(memory) {
+      memory_(memory),
+      agenda_(plan.tile_work, chunks_, plan.least_help) {
   if (!binned()) return;
   while (memory_.bins.size() < chunks_) memory_.bins.push_back(std::make_unique<Bins>());
   for (std::size_t chunk = 0; chunk < chunks_; ++chunk) memory_.bins[chunk]->done.store(false);
+}
+
+void TiledDraw::work(Canvas& canvas) {
+  const std::size_t to_bin = binned() ? chunks_ : 0;
+  for (std::size_t chunk = next_to_bin_++; chunk < to_bin; chunk = next_to_bin_++) bin(chunk);
+  int tile = -1;
+  while (const auto part = agenda_.next(tile)) {
+    tile = part->tile;
+    draw(tile, part->chunk, canvas);
+  }
+  finish(canvas);
 }
 
 std::span<const TiledDraw::Triangle> TiledDraw::triangles_of(std::size_t chunk) const {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "rasterizer/fast/fast.h"
+#include "rasterizer/threads/agenda.h"
 #include "rasterizer/threads/plan.h"
 
 namespace edgecase::rasterizer {
@@ -65,6 +66,12 @@ class TiledDraw {
   TiledDraw(const FastRasterizer& fast, std::span<const Triangle> triangles, const Plan& plan, StripMask& mask,
             Memory& memory);
 
+  /// Does tasks until none is left for this thread. All of them are done when this has returned on every thread that
+  /// called it, plan.threads of them or fewer, each with a canvas of its own.
+  void work(Canvas& canvas);
+
+  // The tasks, for those who want to time them, or do them in an order of their own.
+
   std::size_t chunks() const { return chunks_; }
   int tiles() const { return plan_.grid.count(); }
 
@@ -91,6 +98,8 @@ class TiledDraw {
   StripMask& mask_;
   std::size_t chunks_;
   Memory& memory_;
+  Agenda agenda_;
+  alignas(64) std::atomic<std::size_t> next_to_bin_{0};
 };
 
 }  // namespace edgecase::rasterizer
