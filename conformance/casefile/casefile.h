@@ -21,8 +21,8 @@ inline constexpr float kMaxCaseCoordinate = 32768;
 /// A larger file is refused before it is read.
 inline constexpr std::size_t kMaxCaseBytes = std::size_t{8} << 20;
 
-/// How many triangles of the scene cover each sample. Of a scene in clip space there is an expectation only if every
-/// vertex has an exact window position, see scene/window_position.h.
+/// How many triangles of the scene cover each sample. Of a scene in clip space there is an expectation only if it has
+/// exact_window_triangles, see scene/window_position.h.
 struct Expectation {
   /// For a sample that the specification leaves open.
   static constexpr std::int8_t kMay = -1;

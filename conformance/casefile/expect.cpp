@@ -50,11 +50,12 @@ FieldResult read_rows(const Cursor& at, const MaskLayout& layout, int sample, st
 /// Which samples a clipped triangle covers depends on how the clipper rounds.
 FieldResult check_not_clipped(const Cursor& at, const ClipGeometry& clip) {
   for (std::size_t i = 0; i < clip.triangles.size(); ++i) {
+    if (behind_the_eye(clip.triangles[i])) continue;
     for (std::size_t v = 0; v < 3; ++v) {
       if (exact_window_position(clip.viewport, clip.triangles[i][v])) continue;
       return at.remark(
           fmt::format("clip[{}][{}] has no exact window position (inside the view volume, w a power of two, no "
-                      "rounding), and without that nothing can be expected",
+                      "rounding; or every w below 0), and without that nothing can be expected",
                       i, v));
     }
   }

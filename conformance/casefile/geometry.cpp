@@ -71,20 +71,29 @@ tl::expected<std::vector<Triangle>, Error> read_plain(const Cursor& at, Topology
   return assemble({topology, std::move(*vertices), {}});
 }
 
+std::array<float, 2> coordinates_of(const Position& p) { return {p.x, p.y}; }
+std::array<float, 4> coordinates_of(const ClipPosition& p) { return {p.x, p.y, p.z, p.w}; }
+
+std::string listed(std::span<const float> coordinates) {
+  std::string text;
+  for (const float v : coordinates) text += fmt::format("{}\"{}\"", text.empty() ? "[" : ", ", write_coordinate(v));
+  return text + "]";
+}
+
 /// In a mesh as scene.h defines it, no two triangles run along the same edge in the same direction: two that are wound
 /// the same way and do so lie on the same side of it. Triangles with two equal vertices cover nothing and are left out.
-tl::expected<void, Error> check_mesh(const Cursor& at, const Mesh& mesh, std::span<const Triangle> triangles) {
-  std::map<std::array<float, 4>, std::size_t> first_along;
+template <typename AnyTriangle>
+tl::expected<void, Error> check_mesh(const Cursor& at, const Mesh& mesh, std::span<const AnyTriangle> triangles) {
+  using Coordinates = decltype(coordinates_of(triangles[0][0]));
+  std::map<std::pair<Coordinates, Coordinates>, std::size_t> first_along;
   for (std::size_t i = mesh.first; i < mesh.first + mesh.count; ++i) {
     const auto& [a, b, c] = triangles[i];
     if (a == b || b == c || c == a) continue;
     for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
-      const auto [other, is_first] = first_along.try_emplace({from.x, from.y, to.x, to.y}, i);
+      const auto [other, is_first] = first_along.try_emplace({coordinates_of(from), coordinates_of(to)}, i);
       if (is_first) continue;
-      return at.remark(fmt::format(
-          "triangles {} and {} both run from [\"{}\", \"{}\"] to [\"{}\", \"{}\"]; they overlap or differ in winding",
-          other->second, i, write_coordinate(from.x), write_coordinate(from.y), write_coordinate(to.x),
-          write_coordinate(to.y)));
+      return at.remark(fmt::format("triangles {} and {} both run from {} to {}; they overlap or differ in winding",
+                                   other->second, i, listed(coordinates_of(from)), listed(coordinates_of(to))));
     }
   }
   return {};
@@ -170,21 +179,24 @@ tl::expected<std::vector<ClipTriangle>, Error> read_clip_triangles(const Cursor&
   });
 }
 
-tl::expected<std::vector<Mesh>, Error> read_watertight(const Cursor& at, std::span<const Triangle> triangles) {
+tl::expected<std::vector<Mesh>, Error> read_watertight(const Cursor& at, const Scene& scene) {
   std::vector<Mesh> meshes;
+  const std::size_t triangles = triangle_count(scene);
   if (at.node().kind == JsonNode::Kind::boolean) {
-    if (at.node().boolean) meshes.push_back({0, triangles.size()});
+    if (at.node().boolean) meshes.push_back({0, triangles});
   } else {
     if (const auto ok = at.array("true, false or an array of ranges [first, count]"); !ok)
       return tl::unexpected(ok.error());
     for (std::size_t i = 0; i < at.size(); ++i) {
-      const auto mesh = read_mesh(at[i], triangles.size());
+      const auto mesh = read_mesh(at[i], triangles);
       if (!mesh) return tl::unexpected(mesh.error());
       meshes.push_back(*mesh);
     }
   }
   for (const Mesh& mesh : meshes) {
-    if (const auto ok = check_mesh(at, mesh, triangles); !ok) return tl::unexpected(ok.error());
+    const auto ok = scene.clip ? check_mesh(at, mesh, std::span<const ClipTriangle>(scene.clip->triangles))
+                               : check_mesh(at, mesh, std::span<const Triangle>(scene.triangles));
+    if (!ok) return tl::unexpected(ok.error());
   }
   return meshes;
 }

@@ -36,7 +36,7 @@ tl::expected<Viewport, Error> read_viewport(const Cursor& at);
 /// [[[x, y, z, w], [x, y, z, w], [x, y, z, w]], ...].
 tl::expected<std::vector<ClipTriangle>, Error> read_clip_triangles(const Cursor& at);
 
-/// true: all of the `count` triangles are one mesh; [[first, count], ...]: these are.
-tl::expected<std::vector<Mesh>, Error> read_watertight(const Cursor& at, std::span<const Triangle> triangles);
+/// true: all triangles of `scene` are one mesh; [[first, count], ...]: these are.
+tl::expected<std::vector<Mesh>, Error> read_watertight(const Cursor& at, const Scene& scene);
 
 }  // namespace edgecase::conformance

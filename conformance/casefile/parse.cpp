@@ -83,10 +83,9 @@ FieldResult read_clip(const Cursor& at, Draft& draft) {
 }
 
 FieldResult read_meshes(const Cursor& at, Draft& draft) {
-  if (draft.result.scene.clip) return at.remark("the field takes window coordinates; the case has clip");
   if (draft.result.scene.setting.cull != CullMode::none)
     return at.remark("the field takes no culling beside it: culled triangles leave holes");
-  auto meshes = read_watertight(at, draft.result.scene.triangles);
+  auto meshes = read_watertight(at, draft.result.scene);
   if (!meshes) return tl::unexpected(meshes.error());
   draft.result.scene.meshes = std::move(*meshes);
   return {};

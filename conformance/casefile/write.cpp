@@ -121,7 +121,7 @@ void add_geometry(const Scene& scene, Fields& fields) {
   } else {
     fields.add("triangles", listed(all_written(scene.triangles, each)));
   }
-  if (!scene.meshes.empty()) fields.add("watertight", written(scene.meshes, scene.triangles.size()));
+  if (!scene.meshes.empty()) fields.add("watertight", written(scene.meshes, triangle_count(scene)));
 }
 
 std::string written(const Expectation& expect, const Setting& setting) {

@@ -93,7 +93,9 @@ Caption make_caption(const Exhibit& exhibit) {
     const SampleLocation& at = setting.sample_locations[static_cast<std::size_t>(wrong.sample)];
     caption.verdict =
         fmt::format("{} at pixel ({}, {}), sample {}", name_of(wrong.kind), wrong.x, wrong.y, wrong.sample);
-    caption.meaning = meaning_of(wrong, exhibit.subject.empty() ? "the subject" : exhibit.subject);
+    caption.meaning = exhibit.meaning.empty()
+                          ? meaning_of(wrong, exhibit.subject.empty() ? "the subject" : exhibit.subject)
+                          : exhibit.meaning;
     caption.location = fmt::format("({}, {})", exact_decimal(wrong.x * 16 + at.x, kSampleGridBits),
                                    exact_decimal(wrong.y * 16 + at.y, kSampleGridBits));
     caption.triangle = fmt::format("triangle {} of {}", wrong.triangle + 1, exhibit.scene.triangles.size());

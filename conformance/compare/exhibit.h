@@ -27,6 +27,8 @@ struct Exhibit {
   MaskBatch observed;  ///< no masks: the exhibit shows only what the rules say
   /// Its triangle is an index into scene.triangles.
   std::optional<WrongSample> wrong;
+  /// What is wrong with it, in words; where empty, its kind says it.
+  std::string meaning;
   /// Of the wrong sample, in the triangle it names.
   std::optional<Explanation> explanation;
 };

@@ -79,6 +79,28 @@ void range(const Lattice& lattice, Random& random, Scene& scene) {
   append(lattice, random, a, b, far(), scene);
 }
 
+// Up to 8,000 px out on the left and above, but with two or three vertices on the other sides no further than a few
+// pixels beyond 64 px: those of an axis-parallel right angle, of an edge through a pixel centre, or anywhere.
+void far_corner(const Lattice& lattice, Random& random, Scene& scene) {
+  const std::int64_t reach = std::min(lattice.pixel() << random.between(9, 13), 8000 * lattice.pixel());
+  const auto far = [&] { return -random.between(reach / 2, reach); };
+  const auto near = [&] {
+    // Half of them with their last pixel about the 4th, the 16th or the 64th.
+    if (random.one_in(2)) return random.between(1, 66 * lattice.pixel());
+    const std::int64_t border = std::int64_t{4} << 2 * random.between(0, 2);
+    return border * lattice.pixel() + random.between(-1, 1) * (random.one_in(2) ? 1 : lattice.half_pixel());
+  };
+  const LatticePoint corner{near(), near()};
+  const LatticePoint a{far(), far()};
+  LatticePoint b{corner.x, far()};
+  if (random.one_in(3)) return append(lattice, random, a, b, corner, scene);
+  if (random.one_in(2)) return append(lattice, random, a, {b.y, corner.y}, corner, scene);
+  const LatticePoint centre = lattice.to_centre({corner.x / 2, corner.y / 2});
+  if (random.one_in(2)) b = {centre.x + (centre.x - a.x) / 4096, centre.y + (centre.y - a.y) / 4096};
+  const LatticePoint c{random.one_in(2) ? corner.x : far(), near()};
+  append(lattice, random, a, b, c, scene);
+}
+
 void tiny(const Lattice& lattice, Random& random, Scene& scene) {
   const LatticePoint middle =
       random.one_in(4) ? lattice.anywhere(random, 0) : lattice.to_centre(lattice.anywhere(random, 0));

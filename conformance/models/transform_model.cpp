@@ -109,6 +109,8 @@ constexpr TransformModel kSwiftshader{
 
 }  // namespace
 
+TransformModel exact_model(const Rules& rules) { return {.name = "exact", .rules = rules, .planes = kLavapipe.planes}; }
+
 const TransformModel& lavapipe_model() { return kLavapipe; }
 const TransformModel& osmesa_llvmpipe_model() { return kOsmesaLlvmpipe; }
 const TransformModel& swiftshader_model() { return kSwiftshader; }

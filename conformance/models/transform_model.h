@@ -91,6 +91,10 @@ struct TransformModel {
   bool loose_multisample_scissor = false;
 };
 
+/// Of any rasterizer, on its grid, as long as it follows exact_window_triangles (scene/window_position.h): where
+/// nothing is cut or rounded, all models agree.
+TransformModel exact_model(const Rules& rules);
+
 /// Mesa's llvmpipe, 22.3.6 and 25.0.7, through Vulkan, on a processor with fused multiply-add.
 const TransformModel& lavapipe_model();
 /// The same with a B8G8R8A8 target, for which it takes a guard band unless it is multisampled.

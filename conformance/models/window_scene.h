@@ -24,6 +24,7 @@ struct WindowScene {
   DrawnRegion region;
 
   std::size_t size() const { return first.size() - 1; }
+  std::size_t parts_of(std::size_t triangle) const { return first[triangle + 1] - first[triangle]; }
 };
 
 /// Clips and projects `scene.clip`, or else snaps `scene.triangles` (which reach the driver unchanged, as through an
@@ -32,5 +33,9 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene);
 
 /// `parts` are the masks of `window.scene`; mask i of `whole` becomes what the driver covers of triangle i.
 void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole);
+
+/// The same for triangle i alone: its parts are the masks of `parts` from `from` on. Writes every word of `whole`.
+void unite_parts(const WindowScene& window, std::size_t i, const MaskBatch& parts, std::size_t from,
+                 MutableMaskView whole);
 
 }  // namespace edgecase::conformance

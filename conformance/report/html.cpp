@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
@@ -53,8 +54,11 @@ class Page {
     head();
     summary();
     filter();
-    findings(Verdict::fail, totals_.fail, "failures", "What is wrong");
-    findings(Verdict::known, totals_.known, "known", "Known deviations");
+    findings("failures", "What is wrong", [](const Result& r) { return r.verdict == Verdict::fail; });
+    findings("known", "Known deviations", [](const Result& r) { return r.verdict == Verdict::known; });
+    findings("cracks", "Meshes that clipping tears", [](const Result& r) {
+      return r.cracks.first && r.verdict != Verdict::fail && r.verdict != Verdict::known;
+    });
     results();
     add("<script>{}</script>\n</body>\n</html>\n", kPageScript);
     return std::move(out_);
@@ -128,6 +132,35 @@ class Page {
     summary_row("unexpected samples", &Totals::unexpected);
     summary_row("doubled samples", &Totals::doubled);
     add("</tfoot>\n</table></div>\n");
+    coverage();
+  }
+
+  // A line for each subject and category, with the causes of what is known or skipped.
+  void coverage() {
+    add("<details><summary>Samples by subject and category</summary>\n<div class=\"wide\"><table id=\"coverage\">\n"
+        "<thead><tr><th scope=\"col\">subject</th><th scope=\"col\">category</th>");
+    for (const char* name : {"cases", "triangles", "samples", "missing", "unexpected", "doubled", "failed", "known",
+                             "skipped", "unpredicted", "cracks"}) {
+      add("<th scope=\"col\" class=\"number\">{}</th>", name);
+    }
+    add("<th scope=\"col\">causes</th></tr></thead>\n<tbody>\n");
+    for (const SubjectSummary& subject : subjects_) {
+      for (const CategorySummary& category : by_category(report_, subject)) {
+        const Totals& t = category.totals;
+        add("<tr><td>{}</td><td>{}</td>", markup(visible_line(subject.name)), category_name(category.category));
+        for (const std::uint64_t number :
+             {t.cases(), t.triangles, t.samples_compared, t.missing, t.unexpected, t.doubled, t.fail, t.known, t.skip,
+              t.unpredicted, t.cracks.holes + t.cracks.doubled}) {
+          add("<td class=\"number\">{}</td>", grouped(number));
+        }
+        add("<td>");
+        for (const Cause& cause : causes(report_, category.results)) {
+          add("<div>{} {}: {}</div>", grouped(cause.results.size()), name_of(cause.verdict), markup(cause.reason));
+        }
+        add("</td></tr>\n");
+      }
+    }
+    add("</tbody>\n</table></div></details>\n");
   }
 
   void summary_row(const char* name, std::uint64_t Totals::*number) {
@@ -153,11 +186,11 @@ class Page {
         "<output class=\"quiet\"></output>\n</form>\n");
   }
 
-  void findings(Verdict verdict, std::uint64_t count, const char* id, const char* title) {
-    if (count == 0) return;
+  void findings(const char* id, const char* title, bool (*belongs)(const Result&)) {
+    if (std::ranges::none_of(report_.results, belongs)) return;
     add("<section id=\"{}\">\n<h2>{}</h2>\n", id, title);
     for (std::size_t i = 0; i < report_.results.size(); ++i) {
-      if (report_.results[i].verdict == verdict) finding(i);
+      if (belongs(report_.results[i])) finding(i);
     }
     add("</section>\n");
   }
@@ -171,7 +204,7 @@ class Page {
 
   void finding(std::size_t i) {
     const Result& result = report_.results[i];
-    const bool known = result.verdict == Verdict::known;
+    const bool known = result.verdict == Verdict::known || result.verdict == Verdict::pass;
     add("<article id=\"r{}\" {}{}>\n", i, known ? "class=\"deviation\" " : "", data(i));
     add("{}<h3><span class=\"glyph {}\">{}</span> {}: {}</h3>{}\n", known ? "<details><summary>" : "",
         name_of(result.verdict), glyph_of(result.verdict), markup(visible_line(result.subject)),
@@ -183,7 +216,12 @@ class Page {
       add("<dt>wrong samples</dt><dd>{} among {} of {}</dd>\n", wrong, counted(result.samples_compared, "sample"),
           counted(result.triangles, "triangle"));
     }
-    if (known) add("<dt>known triangles</dt><dd>{}</dd>\n", grouped(result.known_triangles));
+    if (result.verdict == Verdict::known) {
+      add("<dt>known triangles</dt><dd>{}</dd>\n", grouped(result.known_triangles));
+    }
+    if (result.cracks.first) {
+      add("<dt>cracks</dt><dd>{}; the first: {}</dd>\n", torn(result.cracks), place(result.cracks));
+    }
     if (result.first) {
       add("<dt>first</dt><dd>{}</dd>\n<dt>its triangle</dt><dd><code>{}</code></dd>\n", markup(place(*result.first)),
           markup(vertices(*result.first)));
@@ -212,7 +250,10 @@ class Page {
       add("<a href=\"{}\"><img src=\"{}\" alt=\"{}\" loading=\"lazy\"></a>\n", relative_url(enlarged),
           relative_url(image), markup_attribute(shown.caption));
     }
-    add("<figcaption>{}{}", shown.known ? "<span class=\"known\">known deviation:</span> " : "", markup(shown.caption));
+    const char* kind = shown.crack   ? "<span class=\"known\">crack:</span> "
+                       : shown.known ? "<span class=\"known\">known deviation:</span> "
+                                     : "";
+    add("<figcaption>{}{}", kind, markup(shown.caption));
     if (!shown.case_file.empty()) {
       add(" <a href=\"{}\">{}</a>", relative_url(shown.case_file), markup(visible_line(shown.case_file)));
     }
@@ -243,7 +284,7 @@ class Page {
 
   void row(std::size_t i) {
     const Result& result = report_.results[i];
-    const bool found = result.verdict == Verdict::fail || result.verdict == Verdict::known;
+    const bool found = result.verdict == Verdict::fail || result.verdict == Verdict::known || result.cracks.first;
     const std::string name = markup(visible_line(result.testcase));
     add("<tr {}><td>{}</td><td>{}</td><td class=\"verdict {}\"><span class=\"glyph\">{}</span> {}</td>", data(i),
         markup(visible_line(result.subject)), found ? fmt::format("<a href=\"#r{}\">{}</a>", i, name) : name,

@@ -22,6 +22,19 @@ Json to_value(const std::optional<FirstWrong>& first) {
           {"command", text_or_null(first->command)}};
 }
 
+Json to_value(const Cracks& cracks) {
+  Json value{{"meshes", cracks.meshes}, {"torn_meshes", cracks.torn_meshes}, {"samples_inside", cracks.samples_inside},
+             {"holes", cracks.holes},   {"doubled", cracks.doubled},         {"first", nullptr}};
+  if (const auto& first = cracks.first) {
+    value["first"] = {{"kind", name_of(first->kind)},
+                      {"triangle", first->triangle},
+                      {"x", first->x},
+                      {"y", first->y},
+                      {"sample", first->sample}};
+  }
+  return value;
+}
+
 Json to_value(const Result& result) {
   return {{"subject", result.subject},
           {"device", text_or_null(result.device)},
@@ -36,6 +49,7 @@ Json to_value(const Result& result) {
           {"doubled", result.doubled},
           {"known_triangles", result.known_triangles},
           {"unpredicted", result.unpredicted},
+          {"cracks", to_value(result.cracks)},
           {"first", to_value(result.first)},
           {"reason", text_or_null(result.reason)},
           {"seconds", result.seconds},
@@ -43,11 +57,35 @@ Json to_value(const Result& result) {
 }
 
 Json to_value(const Totals& totals) {
-  return {{"pass", totals.pass},           {"fail", totals.fail},
-          {"known", totals.known},         {"skip", totals.skip},
-          {"triangles", totals.triangles}, {"samples_compared", totals.samples_compared},
-          {"missing", totals.missing},     {"unexpected", totals.unexpected},
-          {"doubled", totals.doubled}};
+  return {{"pass", totals.pass},
+          {"fail", totals.fail},
+          {"known", totals.known},
+          {"skip", totals.skip},
+          {"triangles", totals.triangles},
+          {"samples_compared", totals.samples_compared},
+          {"missing", totals.missing},
+          {"unexpected", totals.unexpected},
+          {"doubled", totals.doubled},
+          {"known_triangles", totals.known_triangles},
+          {"unpredicted", totals.unpredicted},
+          {"cracks", totals.cracks.holes + totals.cracks.doubled}};
+}
+
+Json categories_of(const Report& report) {
+  Json categories = Json::array();
+  for (const SubjectSummary& subject : by_subject(report)) {
+    for (const CategorySummary& category : by_category(report, subject)) {
+      Json entry{{"subject", subject.name}, {"category", text_or_null(category.category)}};
+      entry.update(to_value(category.totals));
+      entry["causes"] = Json::array();
+      for (const Cause& cause : causes(report, category.results)) {
+        entry["causes"].push_back(
+            {{"verdict", name_of(cause.verdict)}, {"reason", cause.reason}, {"cases", cause.results.size()}});
+      }
+      categories.push_back(std::move(entry));
+    }
+  }
+  return categories;
 }
 
 }  // namespace
@@ -60,6 +98,7 @@ std::string to_json(const Report& report) {
   const Json root = {{"edgecase", report.version},
                      {"seed", report.seed},
                      {"results", std::move(results)},
+                     {"categories", categories_of(report)},
                      {"totals", std::move(totals)}};
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "conformance/compare/clip_mesh.h"
+
 namespace edgecase::conformance {
 
 enum class Verdict {
@@ -43,15 +45,16 @@ struct Shown {
   std::string case_file;  ///< the scene of the picture as a case file
   std::string command;    ///< the shell command that runs that case file
   bool known = false;     ///< explained in the known-deviations file
+  bool crack = false;     ///< a mesh that clipping tore
 };
 
 /// One subject on one test case.
 struct Result {
   std::string subject;   ///< its name on the command line
   std::string device;    ///< as the subject itself reports it; may be empty
-  std::string snap;      ///< how it snaps vertices to its grid; may be empty
+  std::string snap;      ///< how it transforms and snaps vertices; may be empty
   std::string testcase;  ///< a case file or a generator
-  /// What the test case is about. Results of one subject, category and verdict share a line of the text form.
+  /// What the test case is about. Results of one subject and category share a line of the table.
   std::string category;
   Verdict verdict = Verdict::pass;
   std::uint64_t triangles = 0;
@@ -61,6 +64,7 @@ struct Result {
   std::uint64_t doubled = 0;
   std::uint64_t known_triangles = 0;  ///< triangles that are wrong as a known deviation says
   std::uint64_t unpredicted = 0;      ///< triangles not compared, because no model says what the subject has to cover
+  Cracks cracks;                      ///< of meshes in clip space; no fault by themselves
   std::optional<FirstWrong> first;
   /// Why it failed or was skipped, or the cause of the known deviation; empty if it passed.
   std::string reason;
@@ -79,14 +83,16 @@ struct Report {
 /// Every form takes any bytes as text: what is no UTF-8 becomes U+FFFD, and control characters are made visible as \x1b
 /// where the format could not carry them or would act on them.
 
-/// {"edgecase": version, "seed", "results": [...], "totals": {...}}. Every key is always there; what does not apply is
-/// null. The pictures are not in it.
+/// {"edgecase": version, "seed", "results": [...], "categories": [...], "totals": {...}}: categories has one entry for
+/// each subject and category, with the causes of what is known or skipped. Every key is always there; what does not
+/// apply is null. The pictures are not in it.
 std::string to_json(const Report& report);
 
 /// JUnit XML: a suite per subject. A known deviation is a passed test with its cause as output.
 std::string to_junit(const Report& report);
 
-/// A table, what went wrong, and a closing summary in words. `terminal` adds colours.
+/// A table of subjects and categories, what went wrong, the causes of what is known, skipped or torn by clipping, and a
+/// closing summary in words. `terminal` adds colours.
 std::string to_text(const Report& report, bool terminal);
 
 /// The index.html of a report folder: one page that loads nothing but the pictures beside it.

@@ -43,6 +43,9 @@ void Totals::add(const Result& result) {
   missing += result.missing;
   unexpected += result.unexpected;
   doubled += result.doubled;
+  known_triangles += result.known_triangles;
+  unpredicted += result.unpredicted;
+  cracks.add(result.cracks);
 }
 
 Totals totals_of(const Report& report) {
@@ -68,26 +71,27 @@ std::vector<SubjectSummary> by_subject(const Report& report) {
   return subjects;
 }
 
-std::vector<ResultGroup> by_category(const Report& report, const SubjectSummary& subject) {
-  std::vector<std::vector<ResultGroup>> categories;
-  std::unordered_map<std::string, std::size_t> index;
+std::vector<CategorySummary> by_category(const Report& report, const SubjectSummary& subject) {
+  std::vector<CategorySummary> categories;
   for (const std::size_t i : subject.results) {
     const Result& result = report.results[i];
-    const auto [entry, added] = index.try_emplace(result.category, categories.size());
-    if (added) categories.emplace_back();
-    std::vector<ResultGroup>& groups = categories[entry->second];
-    auto group = std::ranges::find(groups, result.verdict, &ResultGroup::verdict);
-    if (group == groups.end()) group = groups.insert(group, {result.category, result.verdict, 0, {}});
-    group->results.push_back(i);
+    auto found = std::ranges::find(categories, result.category, &CategorySummary::category);
+    if (found == categories.end()) found = categories.insert(found, {result.category, {}, {}});
+    found->totals.add(result);
+    found->results.push_back(i);
   }
-  std::vector<ResultGroup> all;
-  for (std::vector<ResultGroup>& groups : categories) {
-    std::uint64_t size = 0;
-    for (const ResultGroup& group : groups) size += group.results.size();
-    for (ResultGroup& group : groups) {
-      group.category_size = size;
-      all.push_back(std::move(group));
-    }
+  return categories;
+}
+
+std::vector<Cause> causes(const Report& report, const std::vector<std::size_t>& results) {
+  std::vector<Cause> all;
+  for (const std::size_t i : results) {
+    const Result& result = report.results[i];
+    if (result.verdict != Verdict::known && result.verdict != Verdict::skip) continue;
+    auto found = std::ranges::find_if(
+        all, [&](const Cause& c) { return c.verdict == result.verdict && c.reason == result.reason; });
+    if (found == all.end()) found = all.insert(found, {result.verdict, result.reason, {}});
+    found->results.push_back(i);
   }
   return all;
 }
@@ -127,6 +131,22 @@ std::string wrong_samples(std::uint64_t missing, std::uint64_t unexpected, std::
   append(unexpected, "unexpected");
   append(doubled, "doubled");
   return out;
+}
+
+std::string torn(const Cracks& cracks) {
+  const std::string doubled = cracks.doubled == 0 ? "" : grouped(cracks.doubled) + " doubled";
+  std::string wrong = cracks.holes == 0 ? doubled : counted(cracks.holes, "hole");
+  if (wrong.empty()) return wrong;
+  if (cracks.holes != 0 && cracks.doubled != 0) wrong += ", " + doubled;
+  return fmt::format("{} among {} inside; {} of {} torn", wrong, counted(cracks.samples_inside, "sample"),
+                     grouped(cracks.torn_meshes), counted(cracks.meshes, "clipped mesh", "clipped meshes"));
+}
+
+std::string place(const Cracks& cracks) {
+  const WrongSample& first = *cracks.first;
+  return fmt::format("{} at pixel ({}, {}), sample {}, mesh from triangle {}",
+                     first.kind == WrongSample::Kind::missing ? "hole" : "doubled", first.x, first.y, first.sample,
+                     first.triangle);
 }
 
 std::string details(const Result& result) {
@@ -170,7 +190,8 @@ std::string grouped(std::uint64_t number) {
   return digits;
 }
 
-std::string counted(std::uint64_t number, const char* noun) {
+std::string counted(std::uint64_t number, const char* noun, const char* plural) {
+  if (number != 1 && plural != nullptr) return fmt::format("{} {}", grouped(number), plural);
   return fmt::format("{} {}{}", grouped(number), noun, number == 1 ? "" : "s");
 }
 

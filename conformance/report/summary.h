@@ -20,6 +20,9 @@ struct Totals {
   std::uint64_t missing = 0;
   std::uint64_t unexpected = 0;
   std::uint64_t doubled = 0;
+  std::uint64_t known_triangles = 0;
+  std::uint64_t unpredicted = 0;
+  Cracks cracks;
 
   std::uint64_t cases() const { return pass + fail + known + skip; }
   void add(const Result& result);
@@ -40,16 +43,25 @@ struct SubjectSummary {
 /// In the order in which the subjects first occur.
 std::vector<SubjectSummary> by_subject(const Report& report);
 
-/// Some results of one subject that belong together.
-struct ResultGroup {
+/// The results of one subject in one category.
+struct CategorySummary {
   std::string category;
-  Verdict verdict = Verdict::pass;
-  std::uint64_t category_size = 0;  ///< results of the subject in that category, whatever their verdict
+  Totals totals;
+  std::vector<std::size_t> results;  ///< indices into Report::results, ascending
+};
+
+/// In the order in which the categories first occur.
+std::vector<CategorySummary> by_category(const Report& report, const SubjectSummary& subject);
+
+/// Results with the same verdict and reason.
+struct Cause {
+  Verdict verdict = Verdict::skip;
+  std::string reason;
   std::vector<std::size_t> results;
 };
 
-/// The results of a subject by category, and within a category by verdict, each in the order of first occurrence.
-std::vector<ResultGroup> by_category(const Report& report, const SubjectSummary& subject);
+/// Why those of `results` are known or skipped that are, in the order in which the causes first occur.
+std::vector<Cause> causes(const Report& report, const std::vector<std::size_t>& results);
 
 /// One sentence without its full stop that somebody who has never seen a report understands:
 /// "lavapipe (llvmpipe (LLVM 15.0.6)) agrees on every one of 1,024 samples of 4 triangles".
@@ -58,6 +70,12 @@ std::string sentence(const SubjectSummary& subject);
 /// "12 missing, 3 unexpected, 1 doubled" of those that are not zero; "" if all are. They are not added up, because a
 /// sample that is unexpected in a triangle may be doubled in its mesh as well.
 std::string wrong_samples(std::uint64_t missing, std::uint64_t unexpected, std::uint64_t doubled);
+
+/// "12 holes, 3 doubled among 4,096 samples inside; 2 of 70 clipped meshes torn"; "" if nothing is torn.
+std::string torn(const Cracks& cracks);
+
+/// "hole at pixel (12, 7), sample 0, mesh from triangle 5".
+std::string place(const Cracks& cracks);
 
 /// What is to be said of one result, line by line: its reason, how many samples are wrong, the first of them and the
 /// command that shows it again. What is not there has no line; names hold no line breaks.
@@ -72,7 +90,7 @@ std::string vertices(const FirstWrong& first);
 /// 1234567 as 1,234,567.
 std::string grouped(std::uint64_t number);
 
-/// "1 case", "2,000 cases".
-std::string counted(std::uint64_t number, const char* noun);
+/// "1 case", "2,000 cases"; `plural` is what an s does not make.
+std::string counted(std::uint64_t number, const char* noun, const char* plural = nullptr);
 
 }  // namespace edgecase::conformance

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "conformance/report/escape.h"
 #include "conformance/report/report.h"
@@ -11,11 +10,6 @@
 
 namespace edgecase::conformance {
 namespace {
-
-constexpr std::size_t kColumns = 8;
-constexpr std::size_t kFirstNumber = 3;  // the columns before it are words, from it on numbers
-constexpr std::size_t kVerdictColumn = 2;
-using Row = std::array<std::string, kColumns>;
 
 const char* colour_of(Verdict verdict) {
   switch (verdict) {
@@ -35,45 +29,86 @@ std::string coloured(std::string text, Verdict verdict, bool terminal) {
   return terminal ? fmt::format("\x1b[{}m{}\x1b[0m", colour_of(verdict), text) : text;
 }
 
-std::string label(const Report& report, const ResultGroup& group) {
-  if (group.results.size() == 1) return visible_line(report.results[group.results.front()].testcase);
-  const std::string category = group.category.empty() ? "cases" : visible_line(group.category);
-  if (group.results.size() == group.category_size) return fmt::format("{} ({} cases)", category, group.category_size);
-  return fmt::format("{} ({} of {} cases)", category, group.results.size(), group.category_size);
+struct Cell {
+  std::string text;
+  Verdict verdict = Verdict::pass;  ///< its colour, if it is another
+};
+
+struct Column {
+  const char* name;
+  bool words = false;
+  bool always = true;  ///< else only where it is not 0 everywhere
+  Cell (*cell)(const SubjectSummary& subject, const CategorySummary& category);
+};
+
+template <std::uint64_t Totals::*number, Verdict verdict = Verdict::pass>
+Cell total(const SubjectSummary&, const CategorySummary& category) {
+  const std::uint64_t value = category.totals.*number;
+  return {grouped(value), value == 0 ? Verdict::pass : verdict};
 }
 
-Row to_row(const Report& report, const SubjectSummary& subject, const ResultGroup& group) {
-  Totals totals;
-  for (const std::size_t i : group.results) totals.add(report.results[i]);
-  Row row{visible_line(subject.name), label(report, group), name_of(group.verdict)};
-  const std::array numbers{totals.triangles, totals.samples_compared, totals.missing, totals.unexpected,
-                           totals.doubled};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    row[kFirstNumber + i] = group.verdict == Verdict::skip ? "-" : grouped(numbers[i]);
-  }
-  return row;
+// Of what was compared; a dash if nothing was.
+template <std::uint64_t Totals::*number>
+Cell compared(const SubjectSummary& subject, const CategorySummary& category) {
+  const bool nothing = category.totals.skip == category.totals.cases();
+  return nothing ? Cell{"-"} : total<number>(subject, category);
 }
 
+constexpr Column kTable[] = {
+    {"subject", true, true,
+     [](const SubjectSummary& s, const CategorySummary&) -> Cell { return {visible_line(s.name)}; }},
+    {"category", true, true,
+     [](const SubjectSummary&, const CategorySummary& c) -> Cell {
+       return {c.category.empty() ? "other" : visible_line(c.category)};
+     }},
+    {"cases", false, true,
+     [](const SubjectSummary&, const CategorySummary& c) -> Cell { return {grouped(c.totals.cases())}; }},
+    {"triangles", false, true, compared<&Totals::triangles>},
+    {"samples", false, true, compared<&Totals::samples_compared>},
+    {"missing", false, true, compared<&Totals::missing>},
+    {"unexpected", false, true, compared<&Totals::unexpected>},
+    {"doubled", false, true, compared<&Totals::doubled>},
+    {"failed", false, true, total<&Totals::fail, Verdict::fail>},
+    {"known", false, true, total<&Totals::known, Verdict::known>},
+    {"skipped", false, true, total<&Totals::skip, Verdict::skip>},
+    {"unpredicted", false, false, total<&Totals::unpredicted>},
+    {"cracks", false, false,
+     [](const SubjectSummary&, const CategorySummary& c) -> Cell {
+       return {grouped(c.totals.cracks.holes + c.totals.cracks.doubled)};
+     }},
+};
+
+// A line for each subject and category.
 void append_table(const Report& report, const std::vector<SubjectSummary>& subjects, bool terminal, std::string& out) {
-  std::vector<Row> rows{{"subject", "case", "verdict", "triangles", "samples", "missing", "unexpected", "doubled"}};
-  std::vector<Verdict> verdicts{Verdict::pass};
-  for (const SubjectSummary& subject : subjects) {
-    for (const ResultGroup& group : by_category(report, subject)) {
-      rows.push_back(to_row(report, subject, group));
-      verdicts.push_back(group.verdict);
+  struct Line {
+    const Column* column;
+    std::vector<Cell> cells;
+    std::size_t width;
+  };
+  std::vector<Line> table;
+  std::size_t rows = 1;
+  for (const Column& column : kTable) {
+    std::vector<Cell> cells{{column.name}};
+    bool all_zero = true;
+    for (const SubjectSummary& subject : subjects) {
+      for (const CategorySummary& category : by_category(report, subject)) {
+        cells.push_back(column.cell(subject, category));
+        all_zero = all_zero && cells.back().text == "0";
+      }
     }
+    if (!column.always && all_zero) continue;
+    std::size_t width = 0;
+    for (const Cell& cell : cells) width = std::max(width, columns(cell.text));
+    rows = cells.size();
+    table.push_back({&column, std::move(cells), width});
   }
-  std::array<std::size_t, kColumns> widths{};
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], columns(row[i]));
-  }
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      const std::string padding(widths[i] - columns(rows[r][i]), ' ');
-      const bool is_verdict = r != 0 && i == kVerdictColumn;
-      const std::string cell = is_verdict ? coloured(rows[r][i], verdicts[r], terminal) : rows[r][i];
-      out += i == 0 ? "" : "  ";
-      out += i < kFirstNumber ? cell + padding : padding + cell;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const auto& [column, cells, width] : table) {
+      const auto& [text, verdict] = cells[row];
+      const std::string padding(width - columns(text), ' ');
+      const std::string cell = verdict == Verdict::pass ? text : coloured(text, verdict, terminal);
+      out += column == table.front().column ? "" : "  ";
+      out += column->words ? cell + padding : padding + cell;
     }
     out += '\n';
   }
@@ -94,25 +129,37 @@ void append_failure(const Result& result, bool terminal, std::string& out) {
   append_indented(details(result), out);
 }
 
+// " (cull, topology)"
+std::string categories_of(const Report& report, const Cause& cause) {
+  std::vector<std::string> names;
+  for (const std::size_t i : cause.results) {
+    const std::string name = visible_line(report.results[i].category);
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names.empty() ? "" : fmt::format(" ({})", fmt::join(names, ", "));
+}
+
 /// The results of a verdict that needs no action, those of one subject with the same reason together.
-void append_reasons(const Report& report, const std::vector<SubjectSummary>& subjects, Verdict verdict, bool terminal,
-                    std::string& out) {
+void append_causes(const Report& report, const std::vector<SubjectSummary>& subjects, Verdict verdict, bool terminal,
+                   std::string& out) {
   for (const SubjectSummary& subject : subjects) {
-    std::vector<std::pair<std::string, std::vector<std::size_t>>> reasons;
-    for (const std::size_t i : subject.results) {
-      const Result& result = report.results[i];
-      if (result.verdict != verdict) continue;
-      auto found = std::ranges::find(reasons, result.reason, &decltype(reasons)::value_type::first);
-      if (found == reasons.end()) found = reasons.insert(found, {result.reason, {}});
-      found->second.push_back(i);
-    }
-    for (const auto& [reason, results] : reasons) {
-      const std::string cases = results.size() == 1 ? visible_line(report.results[results.front()].testcase)
-                                                    : counted(results.size(), "case");
+    for (const Cause& cause : causes(report, subject.results)) {
+      if (cause.verdict != verdict) continue;
+      const std::string cases = cause.results.size() == 1
+                                    ? visible_line(report.results[cause.results.front()].testcase)
+                                    : counted(cause.results.size(), "case") + categories_of(report, cause);
       out += fmt::format("\n{} {}: {}\n", coloured(name_of(verdict), verdict, terminal), visible_line(subject.name),
                          cases);
-      append_indented(reason, out);
+      append_indented(cause.reason, out);
     }
+  }
+}
+
+void append_cracks(const Report& report, std::string& out) {
+  for (const Result& result : report.results) {
+    if (!result.cracks.first) continue;
+    out += fmt::format("\ncracks {}: {}\n", visible_line(result.subject), visible_line(result.testcase));
+    append_indented(torn(result.cracks) + "\nfirst: " + place(result.cracks), out);
   }
 }
 
@@ -126,8 +173,9 @@ std::string to_text(const Report& report, bool terminal) {
   for (const Result& result : report.results) {
     if (result.verdict == Verdict::fail) append_failure(result, terminal, out);
   }
-  append_reasons(report, subjects, Verdict::known, terminal, out);
-  append_reasons(report, subjects, Verdict::skip, terminal, out);
+  append_causes(report, subjects, Verdict::known, terminal, out);
+  append_causes(report, subjects, Verdict::skip, terminal, out);
+  append_cracks(report, out);
   out += '\n';
   for (const SubjectSummary& subject : subjects) out += sentence(subject) + ".\n";
   const Totals totals = totals_of(report);

@@ -115,7 +115,9 @@ class Exhauster {
           found.first = {first + i, bit % plan_.target.width, bit / plan_.target.width, (must_[i] >> bit & 1) != 0};
         }
       }
-      if (plan_.deviation != nullptr ? observed != predicted(i) : wrong != 0) ++found.unexplained;
+      const bool concerned =
+          plan_.deviation != nullptr && plan_.deviation->may_concern(scene_.setting, scene_.triangles[i]);
+      if (concerned ? observed != predicted(i) : wrong != 0) ++found.unexplained;
     }
     return {};
   }

@@ -60,7 +60,7 @@ std::string to_text(const ExhaustPlan& plan, const Exhaustion& found) {
                         found.first->missing ? "missing" : "unexpected", found.first->x, found.first->y,
                         found.first->triangle, vertices(exhaust_triangle(plan, found.first->triangle)));
   }
-  if (plan.deviation != nullptr) {
+  if (plan.deviation != nullptr && plan.deviation->replaces_rules()) {
     text += found.unexplained == 0
                 ? fmt::format("every mask is as predicted: {}\n", plan.deviation->cause)
                 : fmt::format("{} triangles are not what the known deviation's model predicts\n", found.unexplained);
@@ -102,11 +102,11 @@ tl::expected<Exhaustion, Error> run(const ExhaustPlan& plan, std::unique_ptr<Sub
 int exhaust_command(const DataFiles& data, const ExhaustOptions& options) {
   const auto known = load_known_deviations(data.known_deviations);
   if (!known) return fail(known.error());
-  const ExhaustPlan plan{options.lattice_bits, options.target, options.subject,
-                         find_known_deviation(*known, options.subject), options.jobs};
+  ExhaustPlan plan{options.lattice_bits, options.target, options.subject, nullptr, options.jobs};
   auto subject = make_subject(options.subject);
   if (!subject) return fail(subject.error());
   const std::string device = (*subject)->info().device;
+  plan.deviation = find_known_deviation(*known, options.subject, device);
   if (const auto error = check_exhaust(plan, **subject)) return fail(*error);
   const auto found = run(plan, std::move(*subject), options.state);
   if (!found) return fail(found.error());

@@ -39,6 +39,12 @@ Exhibit exhibit(const Finding& finding, const RunResult& run, const RunPlan& pla
   result.must = finding.expected;
   result.observed = finding.observed;
   result.wrong = finding.wrong;
+  if (finding.crack) {
+    result.meaning = finding.wrong.kind == WrongSample::Kind::missing
+                         ? "well inside the mesh before clipping, and covered by none of what clipping left"
+                         : "well inside the mesh before clipping, and covered by more than one part";
+    return result;
+  }
   result.explanation =
       oracle::explain(scene.setting, scene.rules, wrong, finding.wrong.x, finding.wrong.y, finding.wrong.sample);
   return result;
@@ -59,10 +65,28 @@ FirstWrong first_wrong(const Finding& finding, const RunResult& run, const RunPl
   return first;
 }
 
+// What a strip or a fan covers may hang on every vertex and restart before, so that it is shown whole, and behind the
+// one before it, which a restart has to end.
+std::optional<Scene> assembled_scene(const Finding& finding, const RunResult& run, const RunPlan& plan) {
+  Scene scene;
+  if (run.testcase.generator != nullptr) {
+    scene.setting = finding.scene.setting;
+    const std::uint64_t before = std::max<std::uint64_t>(finding.part_index, 1) - 1;
+    for (std::uint64_t i = before; i <= finding.part_index; ++i) {
+      append_scene(*run.testcase.generator, plan.seed, i, scene);
+    }
+  } else {
+    scene = run.testcase.file->scene;
+  }
+  scene.rules = finding.scene.rules;
+  return scene.assembly ? std::optional(std::move(scene)) : std::nullopt;
+}
+
 const Finding* first_to_show(const Outcome& outcome) {
   const auto unexplained = std::ranges::find(outcome.findings, false, &Finding::known);
   if (unexplained != outcome.findings.end()) return &*unexplained;
-  return outcome.findings.empty() ? nullptr : &outcome.findings.front();
+  const auto known = std::ranges::find(outcome.findings, false, &Finding::crack);
+  return known == outcome.findings.end() ? nullptr : &*known;
 }
 
 std::string reason(const RunResult& run, const KnownDeviation* deviation) {
@@ -96,6 +120,15 @@ Verdict verdict(const Trial& trial) {
 
 }  // namespace
 
+MaskBatch by_the_rules(const Scene& scene) {
+  MaskBatch masks;
+  masks.reset(MaskLayout(scene.setting), scene.triangles.size());
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], masks[i]);
+  }
+  return masks;
+}
+
 Exhibit exhibit_of(const Scene& scene) {
   Exhibit result;
   result.scene = scene;
@@ -122,8 +155,9 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.doubled = outcome.meshes.doubled;
   result.known_triangles = outcome.known_triangles;
   result.unpredicted = outcome.unpredicted;
+  result.cracks = outcome.cracks;
   if (const Finding* first = first_to_show(outcome)) result.first = first_wrong(*first, run, plan);
-  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject));
+  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject, run.device));
   result.seconds = run.trial.seconds;
   result.subject_seconds = run.trial.subject_seconds;
   return result;
@@ -134,6 +168,11 @@ Case reproduction(const Finding& finding, const RunResult& run, const RunPlan& p
   result.about = fmt::format("{} deviates: {}", run.subject, describe(finding.wrong));
   result.source = origin(finding, run, plan);
   result.scene = finding.scene;
+  MaskBatch expected = finding.expected;
+  if (auto whole = assembled_scene(finding, run, plan)) {
+    result.scene = std::move(*whole);
+    expected = by_the_rules(result.scene);
+  }
   const MaskLayout layout(finding.scene.setting);
   if (finding.scene.clip || std::max(layout.target.width, layout.target.height) > kMostReadableExtent) return result;
 
@@ -142,8 +181,8 @@ Case reproduction(const Finding& finding, const RunResult& run, const RunPlan& p
     for (int x = 0; x < layout.target.width; ++x) {
       for (int s = 0; s < layout.samples; ++s) {
         int count = 0;
-        for (std::size_t t = 0; t < finding.expected.size(); ++t) {
-          count += covered(finding.expected[t], layout.bit(x, y, s)) ? 1 : 0;
+        for (std::size_t t = 0; t < expected.size(); ++t) {
+          count += covered(expected[t], layout.bit(x, y, s)) ? 1 : 0;
         }
         expect.counts.push_back(static_cast<std::int8_t>(std::min(count, 9)));
       }
@@ -168,6 +207,7 @@ tl::expected<void, Error> show_findings(const fs::path& folder, const std::vecto
       shown.command =
           fmt::format("./edgecase run {} --subject {}", (folder / shown.case_file).generic_string(), runs[i].subject);
       shown.known = finding.known;
+      shown.crack = finding.crack;
       const Case repro = reproduction(finding, runs[i], plan);
       if (auto written = write_file_atomically(folder / shown.case_file, write_case(repro)); !written) return written;
       const Exhibit picture = exhibit(finding, runs[i], plan, shown.command);

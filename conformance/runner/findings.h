@@ -14,6 +14,9 @@
 
 namespace edgecase::conformance {
 
+/// What the rules say of the scene's window triangles, one mask a triangle.
+MaskBatch by_the_rules(const Scene& scene);
+
 /// The scene and its snapped triangles, and nothing yet of what anybody says about them.
 Exhibit exhibit_of(const Scene& scene);
 

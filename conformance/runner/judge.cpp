@@ -12,14 +12,10 @@ namespace {
 
 constexpr std::size_t kFindingsOfAKind = 3;
 
-std::span<const std::uint64_t> words_of(const MaskBatch& masks, std::size_t first, std::size_t count) {
-  const std::size_t words = masks[0].size();
-  return masks.data().subspan(first * words, count * words);
-}
-
-void copy_masks(const MaskLayout& layout, const MaskBatch& from, std::size_t first, std::size_t count, MaskBatch& to) {
+void copy_masks(const MaskLayout& layout, const MaskBatchView& from, std::size_t first, std::size_t count,
+                MaskBatch& to) {
   to.reset(layout, count);
-  std::ranges::copy(words_of(from, first, count), to.data().begin());
+  std::ranges::copy(from.data(first, count), to.data().begin());
 }
 
 Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView expected, MaskView observed,
@@ -36,12 +32,14 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 std::optional<std::string> Judge::refusal(const Scene& scene) const {
   if (auto refused = subject_.refusal(scene)) return refused;
-  if (scene.clip && !reference_.judges_clip_space()) return "no model of its clipper and transform is known";
+  if (!reference_.judges(scene)) return reference_.unjudged();
   return std::nullopt;
 }
 
 tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
-  if (auto drawn = subject_.draw(batch.scene, observed_); !drawn) return drawn;
+  const auto drawn = subject_.draw_in_place(batch.scene, scratch_);
+  if (!drawn) return tl::unexpected(drawn.error());
+  observed_ = *drawn;
   if (auto known = reference_.expect(batch.scene, first_triangle, expected_); !known) return known;
 
   // What nobody predicts is not compared, and not counted as compared.
@@ -56,7 +54,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   comparison.samples_compared -= unpredicted * layout.sample_count();
   outcome.triangles.add(comparison);
   if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
-    if (auto judged = judge_triangles(batch, outcome); !judged) return judged;
+    if (auto judged = judge_triangles(batch, comparison.wrong_triangles == 0, outcome); !judged) return judged;
   }
   judge_meshes(batch, first_triangle, outcome);
   return {};
@@ -64,22 +62,25 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
 
 // Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and every
 // wrong one goes to both oracles before anybody is blamed.
-tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& outcome) {
+tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
+    const bool concerned = may_deviate(batch.scene, i);
+    if (all_right && !concerned) continue;
     const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
+    if (!wrong && !concerned) continue;
     if (wrong) {
       if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
     }
-    const bool known = deviation_ != nullptr && as_predicted(batch, i);
+    const bool known = concerned && as_predicted(batch, i);
     if (wrong && known) {
       ++outcome.known_triangles;
       add_finding(batch, i, 1, *comparison.first, true, outcome);
     } else if (wrong) {
       ++outcome.unexplained;
       add_finding(batch, i, 1, *comparison.first, false, outcome);
-    } else if (deviation_ != nullptr && !known) {
+    } else if (!known) {
       // Right where it is predicted to be wrong: the prediction, or the subject, is no longer what it was.
       const Comparison obsolete = compare_one(layout, batch, predicted_, observed_[i], i);
       if (!obsolete.first) continue;
@@ -92,61 +93,164 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& ou
 
 void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   if (batch.scene.meshes.empty()) return;
-  const double scale = std::ldexp(1.0, batch.scene.rules.subpixel_bits);
+  if (batch.scene.clip) return judge_clip_meshes(batch, first_triangle, outcome);
+  const float scale = std::ldexp(1.0f, batch.scene.rules.subpixel_bits);
   WatertightChecker checker(batch.scene.setting, batch.scene.rules.subpixel_bits);
+  const bool snapped_already = all_on_grid(batch.scene.triangles, scale);
   for (const Mesh& mesh : batch.scene.meshes) {
-    snapped_.clear();
-    for (std::size_t i = mesh.first; i < mesh.first + mesh.count; ++i) {
-      const Triangle& t = batch.scene.triangles[i];
-      const auto grid_point = [&](const Position& p) {
-        const auto point = on_grid(p, scale);
-        return point ? *point : oracle::snap(batch.scene.rules, p);
-      };
-      snapped_.push_back({grid_point(t[0]), grid_point(t[1]), grid_point(t[2])});
+    snapped_.resize(std::max(snapped_.size(), mesh.count));
+    for (std::size_t i = 0; i < mesh.count; ++i) {
+      for (std::size_t v = 0; v < 3; ++v) {
+        const Position& p = batch.scene.triangles[mesh.first + i][v];
+        snapped_[i][v] = snapped_already ? grid_point(p, scale) : oracle::snap(batch.scene.rules, p);
+      }
     }
     Watertightness found;
-    checker.check(snapped_, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);
+    checker.check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
+                  first_triangle + mesh.first, found);
     outcome.meshes.add(found);
     for (const auto& torn : {found.first_missing, found.first_doubled}) {
       if (!torn) continue;
       WrongSample wrong = *torn;
       wrong.triangle -= first_triangle;
       bool known = deviation_ != nullptr;
-      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) known = as_predicted(batch, i);
+      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) {
+        known = may_deviate(batch.scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected_[i], observed_[i]);
+      }
       if (!known) ++outcome.unexplained;
       add_finding(batch, mesh.first, mesh.count, wrong, known, outcome);
     }
   }
 }
 
+bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
+  if (deviation_ == nullptr) return false;
+  if (!scene.clip) return deviation_->may_concern(scene.setting, scene.triangles[triangle]);
+  const WindowScene& window = reference_.window();
+  const auto parts = std::span(window.scene.triangles).subspan(window.first[triangle], window.parts_of(triangle));
+  return std::ranges::any_of(parts,
+                             [&](const Triangle& part) { return deviation_->may_concern(window.scene.setting, part); });
+}
+
+// Cracks are no fault by themselves: masks that are as the model of the clipper predicts are judged already. Only where
+// it predicts nothing does nothing explain them.
+void Judge::judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
+  const Setting& setting = batch.scene.setting;
+  const ClipGeometry& geometry = *batch.scene.clip;
+  std::vector<std::uint64_t> inside(MaskLayout(setting).words());
+  for (const Mesh& mesh : batch.scene.meshes) {
+    const auto triangles = std::span(geometry.triangles).subspan(mesh.first, mesh.count);
+    const bool bounded = certainly_inside(setting, batch.scene.rules.subpixel_bits, geometry.viewport,
+                                          reference_.near_plane(), triangles, inside);
+    if (!bounded) continue;
+    Cracks found;
+    count_cracks(setting, inside, observed_.data(mesh.first, mesh.count), first_triangle + mesh.first, found);
+    outcome.cracks.add(found);
+    if (!found.first) continue;
+    const bool predicted = std::ranges::none_of(
+        reference_.unpredicted(), [&](std::size_t i) { return i >= mesh.first && i < mesh.first + mesh.count; });
+    if (!predicted) ++outcome.unexplained;
+    add_crack(batch, mesh, *found.first, inside, predicted, outcome);
+  }
+}
+
 bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   predicted_.resize(observed_[triangle].size());
-  deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  if (batch.scene.clip) {
+    predict_clipped(triangle);
+  } else {
+    deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  }
   return std::ranges::equal(predicted_, observed_[triangle]);
 }
 
-// The triangles that clipping left are drawn together: the first of them bears the masks of them all.
-void Judge::show_clipped(std::size_t triangle, const MaskLayout& layout, Finding& finding) const {
+// What the deviation makes of the triangles that clipping left, where it concerns them, and the rules where it does
+// not.
+void Judge::predict_clipped(std::size_t triangle) {
+  const WindowScene& window = reference_.window();
+  const std::size_t first = window.first[triangle];
+  parts_.reset(MaskLayout(window.scene.setting), window.parts_of(triangle));
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Triangle& part = window.scene.triangles[first + i];
+    if (deviation_->may_concern(window.scene.setting, part)) {
+      deviation_->predict(window.scene.setting, part, parts_[i]);
+    } else {
+      std::ranges::copy(reference_.part(first + i), parts_[i].begin());
+    }
+  }
+  unite_parts(window, triangle, parts_, 0, predicted_);
+}
+
+// The triangles that clipping left of one are drawn together: the first of them bears the masks of them all.
+void Judge::show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const {
   const WindowScene& window = reference_.window();
   finding.window.setting = window.scene.setting;
   finding.window.rules = window.scene.rules;
-  for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
-    finding.window.triangles.push_back(window.scene.triangles[i]);
+  std::vector<std::size_t> bearers;
+  std::vector<Triangle>& shown = finding.window.triangles;
+  for (std::size_t triangle = first; triangle < first + count; ++triangle) {
+    bearers.push_back(shown.size());
+    for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
+      shown.push_back(window.scene.triangles[i]);
+    }
+    if (shown.size() == bearers.back()) shown.push_back({});  // nothing is left, and nothing expected
   }
-  if (finding.window.triangles.empty())
-    finding.window.triangles.push_back({});  // nothing is left, and nothing expected
-  for (const auto& [from, to] : {std::pair(&expected_, &finding.expected), std::pair(&observed_, &finding.observed)}) {
-    to->reset(layout, finding.window.triangles.size());
-    std::ranges::fill(to->data(), 0);
-    std::ranges::copy((*from)[triangle], (*to)[0].begin());
+  const auto copy_all = [&](const auto& from, MaskBatch& to) {
+    to.reset(layout, shown.size());
+    std::ranges::fill(to.data(), 0);
+    for (std::size_t i = 0; i < count; ++i) std::ranges::copy(from[first + i], to[bearers[i]].begin());
+  };
+  copy_all(expected_, finding.expected);
+  copy_all(observed_, finding.observed);
+}
+
+// What is expected of a torn mesh is what was observed, but with each sample inside covered once.
+void Judge::add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& wrong, MaskView inside, bool known,
+                      Outcome& outcome) const {
+  if (std::ranges::count(outcome.findings, true, &Finding::crack) >= static_cast<std::ptrdiff_t>(kFindingsOfAKind)) {
+    return;
   }
+  const auto& all = batch.scene.clip->triangles;
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(mesh.first);
+  Finding finding;
+  finding.crack = true;
+  finding.known = known;
+  finding.wrong = wrong;
+  finding.wrong.triangle = 0;
+  finding.scene.setting = batch.scene.setting;
+  finding.scene.rules = batch.scene.rules;
+  finding.scene.clip =
+      ClipGeometry{batch.scene.clip->viewport, std::vector(begin, begin + static_cast<std::ptrdiff_t>(mesh.count))};
+  finding.scene.meshes = {{0, mesh.count}};
+  show_clipped(mesh.first, mesh.count, MaskLayout(batch.scene.setting), finding);
+  finding.expected = finding.observed;
+  for (std::size_t word = 0; word < inside.size(); ++word) {
+    std::uint64_t open = inside[word];
+    for (std::size_t i = 0; i < finding.expected.size(); ++i) {
+      std::uint64_t& bits = finding.expected[i][word];
+      const std::uint64_t again = bits & inside[word] & ~open;
+      bits &= ~again;
+      open &= ~bits;
+    }
+    finding.expected[0][word] |= open;
+  }
+  finding.part_index = part_of(batch, mesh.first);
+  outcome.findings.push_back(std::move(finding));
+}
+
+std::uint64_t Judge::part_of(const Batch& batch, std::size_t triangle) {
+  std::uint64_t index = 0;
+  for (const Batch::Part& part : batch.parts) {
+    if (part.first <= triangle) index = part.index;
+  }
+  return index;
 }
 
 void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                         Outcome& outcome) const {
   const bool torn_mesh = count > 1;
   const auto alike = std::ranges::count_if(outcome.findings, [&](const Finding& f) {
-    return f.known == known && (f.scene.triangles.size() > 1) == torn_mesh;
+    return !f.crack && f.known == known && (f.scene.triangles.size() > 1) == torn_mesh;
   });
   if (static_cast<std::size_t>(alike) >= kFindingsOfAKind) return;
 
@@ -160,7 +264,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   };
   if (batch.scene.clip) {
     finding.scene.clip = ClipGeometry{batch.scene.clip->viewport, slice(batch.scene.clip->triangles)};
-    show_clipped(first, layout, finding);
+    show_clipped(first, count, layout, finding);
   } else {
     finding.scene.triangles = slice(batch.scene.triangles);
     if (torn_mesh) finding.scene.meshes.push_back({0, count});
@@ -176,9 +280,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   }
   if (batch.scene.clip) finding.wrong.triangle = 0;
   finding.known = known;
-  for (const Batch::Part& part : batch.parts) {
-    if (part.first <= first) finding.part_index = part.index;
-  }
+  finding.part_index = part_of(batch, first);
   outcome.findings.push_back(std::move(finding));
 }
 

@@ -8,6 +8,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "conformance/compare/clip_mesh.h"
 #include "conformance/compare/compare.h"
 #include "conformance/compare/watertight.h"
 #include "conformance/runner/known_deviations.h"
@@ -40,12 +41,14 @@ struct Finding {
   WrongSample wrong;             ///< its triangle counts in `window`
   std::uint64_t part_index = 0;  ///< the generator's scene number
   bool known = false;            ///< predicted by a known deviation's model
+  bool crack = false;            ///< a mesh that clipping tore; known if the model of the clipper predicts it
 };
 
 /// What came of one subject on one case or generator. Sums up over batches.
 struct Outcome {
   Comparison triangles;
   Watertightness meshes;
+  Cracks cracks;                      ///< of meshes in clip space
   std::uint64_t known_triangles = 0;  ///< wrong as predicted
   std::uint64_t unpredicted = 0;      ///< in clip space beyond the reach of the model; not compared
   std::uint64_t unexplained = 0;      ///< triangles wrong and not predicted, or predicted wrong and right
@@ -67,21 +70,32 @@ class Judge {
   tl::expected<void, Error> judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
 
  private:
-  tl::expected<void, Error> judge_triangles(const Batch& batch, Outcome& outcome);
+  tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
   void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  /// Whether the known deviation may concern that triangle of the scene last given to the reference.
+  bool may_deviate(const Scene& scene, std::size_t triangle) const;
+  void judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);
   void add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                    Outcome& outcome) const;
 
-  void show_clipped(std::size_t triangle, const MaskLayout& layout, Finding& finding) const;
+  void predict_clipped(std::size_t triangle);
+  void show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const;
+  /// The generator's scene number of that triangle of the batch.
+  static std::uint64_t part_of(const Batch& batch, std::size_t triangle);
+  /// `inside` is what has to be covered once.
+  void add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& wrong, MaskView inside, bool known,
+                 Outcome& outcome) const;
 
   Subject& subject_;
   Reference& reference_;
   const KnownDeviation* deviation_;
   MaskBatch expected_;
-  MaskBatch observed_;
+  MaskBatchView observed_;  ///< where the subject has them, or in scratch_
+  MaskBatch scratch_;
   std::vector<std::uint64_t> predicted_;
+  MaskBatch parts_;
   std::vector<GridTriangle> snapped_;
 };
 

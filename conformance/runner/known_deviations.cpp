@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "conformance/models/llvmpipe_wrap.h"
 #include "conformance/models/softpipe_model.h"
 
 namespace edgecase::conformance {
@@ -19,10 +20,12 @@ using Json = nlohmann::json;
 
 struct Model {
   std::string_view name;
+  bool (*concerns)(const Setting&, const Triangle&);
   void (*predict)(const Setting&, const Triangle&, MutableMaskView);
 };
 
-constexpr std::array kModels{Model{"softpipe", predict_softpipe}};
+constexpr std::array kModels{Model{"softpipe", nullptr, predict_softpipe},
+                             Model{"llvmpipe_wrap", llvmpipe_may_wrap, predict_llvmpipe_wrap}};
 
 tl::unexpected<Error> bad(const std::filesystem::path& file, std::string_view what) {
   return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{}: {}", file.string(), what)});
@@ -46,7 +49,7 @@ tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list[i].is_object()) return bad(file, fmt::format("[{}]: not an object", i));
     for (const auto& [field, value] : list[i].items()) {
-      if (field != "subject" && field != "model" && field != "cause") {
+      if (field != "subject" && field != "device" && field != "model" && field != "cause") {
         return bad(file, fmt::format("[{}].{}: unknown field", i, field));
       }
     }
@@ -59,17 +62,25 @@ tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std
     const auto model =
         std::find_if(kModels.begin(), kModels.end(), [&](const Model& m) { return m.name == *model_name; });
     if (model == kModels.end()) return bad(file, fmt::format("[{}].model: \"{}\" is no model", i, *model_name));
-    if (find_known_deviation(result, *subject) != nullptr) {
+    const auto device = text(list[i], "device");
+    if (list[i].contains("device") && (!device || device->empty())) {
+      return bad(file, fmt::format("[{}].device: not a part of a device's name", i));
+    }
+    if (std::ranges::find(result, *subject, &KnownDeviation::subject) != result.end()) {
       return bad(file, fmt::format("[{}].subject: \"{}\" is there twice", i, *subject));
     }
-    result.push_back({*subject, *cause, model->predict});
+    result.push_back({*subject, device.value_or(std::string()), *cause, model->concerns, model->predict});
   }
   return result;
 }
 
-const KnownDeviation* find_known_deviation(const std::vector<KnownDeviation>& all, std::string_view subject) {
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const KnownDeviation& known) { return known.subject == subject; });
+const KnownDeviation* find_known_deviation(const std::vector<KnownDeviation>& all, std::string_view subject,
+                                           std::string_view device) {
+  const bool by_device = subject.starts_with("vulkan:");
+  const auto found = std::ranges::find_if(all, [&](const KnownDeviation& known) {
+    return known.subject == subject ||
+           (by_device && !known.device.empty() && device.find(known.device) != std::string_view::npos);
+  });
   return found == all.end() ? nullptr : &*found;
 }
 

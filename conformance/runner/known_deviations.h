@@ -18,15 +18,26 @@ namespace edgecase::conformance {
 /// entry for a subject that has been put right cannot stay.
 struct KnownDeviation {
   std::string subject;
+  /// If not empty, it concerns every `vulkan:...` subject of which the device's name has this in it, too.
+  std::string device;
   std::string cause;
+  /// Whether the model may predict anything but what the rules say of that triangle; null if it replaces the rules.
+  bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
   /// Writes every word of the mask that the subject is predicted to draw.
   void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
+
+  bool replaces_rules() const { return concerns == nullptr; }
+  bool may_concern(const Setting& setting, const Triangle& triangle) const {
+    return replaces_rules() || concerns(setting, triangle);
+  }
 };
 
-/// Reads the list, a JSON array of {"subject", "model", "cause"}; errors name file, entry and value.
+/// Reads the list, a JSON array of {"subject", "device" (optional), "model", "cause"}; errors name file, entry and
+/// value.
 tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std::filesystem::path& file);
 
-/// The entry for that subject, or null.
-const KnownDeviation* find_known_deviation(const std::vector<KnownDeviation>& all, std::string_view subject);
+/// The entry for that subject, or null. `device` is what the subject reports.
+const KnownDeviation* find_known_deviation(const std::vector<KnownDeviation>& all, std::string_view subject,
+                                           std::string_view device);
 
 }  // namespace edgecase::conformance

@@ -18,13 +18,15 @@ const char* const kFooter =
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Compare subjects with the rules on cases and generators");
   run->add_option("CASE", options.cases, "Case: a name, a pattern of names such as 'ties/*', or a file");
-  run->add_option("--subject", options.subjects, "Rasterizer under test; may be repeated")->type_name("S")->take_all();
+  run->add_option("--subject", options.subjects, "Rasterizer under test; may be repeated")
+      ->type_name("S")
+      ->allow_extra_args(false);
   run->add_option("--generator", options.generators, "Generator or metamorphic check; may be repeated")
       ->type_name("G")
-      ->take_all();
+      ->allow_extra_args(false);
   run->add_option("--category", options.categories, "Only what is of this category; may be repeated")
       ->type_name("C")
-      ->take_all();
+      ->allow_extra_args(false);
   run->add_option("--count", options.count, "Triangles of each generator, at least; scenes are whole")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}))
@@ -78,7 +80,7 @@ void add_limits(CLI::App& app, LimitsOptions& options) {
   CLI::App* limits = app.add_subcommand("limits", "Find by bisection how far from the target subjects stay exact");
   limits->add_option("--subject", options.subjects, "Rasterizer under test; may be repeated")
       ->type_name("S")
-      ->take_all();
+      ->allow_extra_args(false);
   limits->add_option("--seed", options.seed, "Seed of the triangles")->type_name("N")->capture_default_str();
 }
 
@@ -102,10 +104,12 @@ void add_show(CLI::App& app, ShowOptions& options) {
 
 void add_bench(CLI::App& app, BenchOptions& options) {
   CLI::App* bench = app.add_subcommand("bench", "Measure rasterizers: speed, and error beside it");
-  bench->add_option("--workload", options.workloads, "Set of triangles; may be repeated")->type_name("W")->take_all();
+  bench->add_option("--workload", options.workloads, "Set of triangles; may be repeated")
+      ->type_name("W")
+      ->allow_extra_args(false);
   bench->add_option("--subject", options.subjects, "Rasterizer to measure beside the plain loop; may be repeated")
       ->type_name("S")
-      ->take_all();
+      ->allow_extra_args(false);
   bench->add_flag("--quick", options.quick, "Fewer triangles and repetitions: less than a minute in all");
   bench->add_option("--seed", options.seed, "Seed of the workloads")->type_name("N")->capture_default_str();
   bench->add_option("--json", options.json, "Write the rows as JSON; - for standard output")->type_name("FILE");
@@ -169,7 +173,7 @@ int dispatch(int argc, char** argv) {
   if (*list) return list_command(data, list_what);
   if (app.got_subcommand("bench")) return bench_command(bench_options);
   if (app.got_subcommand("exhaust")) return exhaust_command(data, exhaust_options);
-  if (app.got_subcommand("limits")) return limits_command(limits_options);
+  if (app.got_subcommand("limits")) return limits_command(data, limits_options);
   if (app.got_subcommand("stability")) return stability_command(stability_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
   return run_command(data, run_options);

@@ -11,7 +11,7 @@
 #include "conformance/runner/commands.h"
 #include "conformance/runner/findings.h"
 #include "conformance/runner/run.h"
-#include "conformance/runner/snap_probe.h"
+#include "conformance/runner/subject_model.h"
 #include "conformance/runner/testcase.h"
 #include "conformance/scene/window_position.h"
 #include "conformance/subjects/registry.h"
@@ -19,24 +19,15 @@
 namespace edgecase::conformance {
 namespace {
 
-// What the rules say of the scene, one mask a triangle.
-MaskBatch by_the_rules(const Scene& scene) {
-  MaskBatch masks;
-  masks.reset(MaskLayout(scene.setting), scene.triangles.size());
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], masks[i]);
-  }
-  return masks;
-}
-
 // Draws a case in clip space with the subject beside what the model of its clipper predicts. Mask i is that of the
 // case's triangle i; the outlines are those of what clipping leaves, and may be more or fewer.
-tl::expected<void, Error> add_clipped(const Case& file, const Scene& scene, Subject& subject, Exhibit& exhibit) {
-  auto reference = reference_for(subject.info().name, subject.info().device);
+tl::expected<void, Error> add_clipped(const Case& file, const Scene& scene, Subject& subject, const SubjectModel& model,
+                                      Exhibit& exhibit) {
+  auto reference = reference_for(subject.info().name, &model);
   if (!reference) return tl::unexpected(reference.error());
-  if (!reference->judges_clip_space()) {
-    return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot show {}: no model of its clipper is known",
-                                                                  subject.info().name, file.name)});
+  if (!reference->judges(scene)) {
+    return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot show {}: {}", subject.info().name,
+                                                                  file.name, reference->unjudged())});
   }
   MaskBatch must;
   if (auto expected = reference->expect(scene, 0, must); !expected) return expected;
@@ -59,13 +50,13 @@ tl::expected<void, Error> add_clipped(const Case& file, const Scene& scene, Subj
 tl::expected<void, Error> add_subject(const Case& file, const std::string& name, Exhibit& exhibit) {
   auto subject = make_subject(name);
   if (!subject) return tl::unexpected(subject.error());
-  const bool probed = !(*subject)->info().device.empty();
-  const auto rules = probed ? find_snap(**subject) : file.scene.rules;
-  auto scene = scene_for(file, (*subject)->info(), rules.value_or((*subject)->info().rules));
+  const auto model =
+      SubjectModel::find(**subject, file.scene.clip.has_value()).value_or(SubjectModel::declared(**subject));
+  auto scene = scene_for(file, (*subject)->info(), model.rules(file.scene.setting.samples()));
   const auto refusal = scene ? (*subject)->refusal(*scene) : scene.error();
   if (refusal)
     return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot draw {}: {}", name, file.name, *refusal)});
-  if (scene->clip) return add_clipped(file, *scene, **subject, exhibit);
+  if (scene->clip) return add_clipped(file, *scene, **subject, model, exhibit);
   exhibit = exhibit_of(*scene);
   exhibit.subject = (*subject)->info().device.empty() ? name : fmt::format("{} ({})", name, (*subject)->info().device);
   exhibit.must = by_the_rules(*scene);

@@ -157,6 +157,7 @@ Trial try_generator(const Generator& generator, Subject& subject, const Rules& r
     batch.scene.triangles.clear();
     batch.scene.meshes.clear();
     batch.scene.clip.reset();
+    batch.scene.assembly.reset();
     batch.parts.clear();
     const std::uint64_t wanted = std::min<std::uint64_t>(full, options.count - done);
     while (triangle_count(batch.scene) < wanted) {

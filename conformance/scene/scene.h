@@ -72,7 +72,7 @@ struct Assembly {
   friend bool operator==(const Assembly&, const Assembly&) = default;
 };
 
-/// Plain data; see triangle_count. Every position is finite; every mesh range lies inside `triangles`.
+/// Plain data; see triangle_count. Every position is finite; every mesh range lies inside the triangles there are.
 struct Scene {
   Setting setting;
   Rules rules;
@@ -80,7 +80,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   /// If present, `triangles` is what it assembles to, in order, and a subject is fed the assembly.
   std::optional<Assembly> assembly{};
-  /// If present, `triangles` and `meshes` are empty: a subject is fed this, and what it covers depends on its clipper.
+  /// If present, `triangles` is empty, and `meshes` are ranges of these, which projection leaves watertight: a subject is fed this, and what it covers depends on its clipper.
   std::optional<ClipGeometry> clip{};
 };
 

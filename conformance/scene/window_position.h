@@ -1,6 +1,7 @@
 // Where a clip-space position lies in the window, as far as no clipper and no rounding have a say in it.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -56,13 +57,20 @@ inline std::optional<Position> exact_window_position(const Viewport& viewport, c
   return Position{*x, *y};
 }
 
-/// The triangles of `scene` in the window: its own, or for clip space those whose vertices all have an
-/// exact_window_position; nothing if one has not.
+/// Whether every vertex has a negative w: then no point of the triangle has -w <= x <= w, and it covers nothing.
+inline bool behind_the_eye(const ClipTriangle& triangle) {
+  return std::ranges::all_of(triangle, [](const ClipPosition& p) { return p.w < 0; });
+}
+
+/// The triangles of `scene` in the window, as far as every rasterizer has to agree: its own, or for clip space those
+/// whose vertices all have an exact_window_position, and one without area for each that is behind_the_eye; nothing if
+/// there is any other.
 inline std::optional<std::vector<Triangle>> exact_window_triangles(const Scene& scene) {
   if (!scene.clip) return scene.triangles;
   std::vector<Triangle> triangles;
   for (const ClipTriangle& clip : scene.clip->triangles) {
     Triangle& triangle = triangles.emplace_back();
+    if (behind_the_eye(clip)) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto position = exact_window_position(scene.clip->viewport, clip[i]);
       if (!position) return std::nullopt;

@@ -270,11 +270,14 @@ TEST(CaseFileErrors, Clip) {
             "f.json:5: clip[0][0][3]: 1 is not a string; numbers are written as \"1.5\"");
   EXPECT_EQ(clip(R"([[["0","0","0","1e39"],["4","0","0","1"],["0","4","0","1"]]])"),
             "f.json:5: clip[0][0][3]: \"1e39\" is not from -3.4028235e+38 to 3.4028235e+38");
-  EXPECT_EQ(clip(good + ", \"watertight\": true"),
-            "f.json:5: watertight: the field takes window coordinates; the case has clip");
+  EXPECT_EQ(
+      clip(R"([[["0","0","0","1"],["1","0","0","1"],["0","1","0","1"]],
+                     [["0","0","0","1"],["1","0","0","1"],["1","1","0","1"]]], "watertight": true)"),
+      "f.json:6: watertight: triangles 0 and 1 both run from [\"0\", \"0\", \"0\", \"1\"] to [\"1\", \"0\", \"0\", "
+      "\"1\"]; they overlap or differ in winding");
   EXPECT_EQ(clip(R"([[["-1","-1","0","1"],["2","-1","0","1"],["-1","1","0","1"]]])"),
             "f.json:6: expect: clip[0][1] has no exact window position (inside the view volume, w a power of two, no "
-            "rounding), and without that nothing can be expected");
+            "rounding; or every w below 0), and without that nothing can be expected");
 }
 
 TEST(CaseFileErrors, Watertight) {

@@ -8,34 +8,49 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "conformance/scene/assemble.h"
+#include "conformance/scene/standard_samples.h"
 #include "conformance/subjects/edgecase_subject.h"
 
 namespace edgecase::conformance {
 namespace {
 
-/// The mask of the only triangle of a 7x4 target, rows parted by '/'.
-std::string draw(Subject& subject, const Triangle& triangle) {
-  Scene scene;
-  scene.setting.target = {7, 4};
-  scene.triangles = {triangle};
+/// What the scene's triangles cover of the first sample of each pixel, '#', or of one of the others, '+'; rows parted
+/// by
+/// '/'.
+std::string draw(Subject& subject, const Scene& scene) {
   EXPECT_EQ(subject.refusal(scene), std::nullopt);
   MaskBatch masks;
   EXPECT_TRUE(subject.draw(scene, masks));
   const MaskLayout layout(scene.setting);
   std::string rows;
-  for (int y = 0; y < 4; ++y) {
+  for (int y = 0; y < layout.target.height; ++y) {
     if (y > 0) rows += '/';
-    for (int x = 0; x < 7; ++x) rows += covered(masks[0], layout.bit(x, y, 0)) ? '#' : '.';
+    for (int x = 0; x < layout.target.width; ++x) {
+      char mark = '.';
+      for (std::size_t i = 0; i < masks.size(); ++i) {
+        for (int s = layout.samples - 1; s >= 0; --s) {
+          if (covered(masks[i], layout.bit(x, y, s)) && mark != '#') mark = s == 0 ? '#' : '+';
+        }
+      }
+      rows += mark;
+    }
   }
   return rows;
 }
 
-/// A triangle small enough to check by hand: what the rules ask for, and what a fault makes of it.
+/// A scene small enough to check by hand: what the rules ask for, and what a fault makes of it.
 struct Exhibit {
-  Triangle triangle;
+  Scene scene;
   std::string exact;
   std::string faulty;
+  Exhibit(Scene s, std::string e, std::string f) : scene(std::move(s)), exact(std::move(e)), faulty(std::move(f)) {}
+  Exhibit(const Triangle& triangle, std::string e, std::string f) : exact(std::move(e)), faulty(std::move(f)) {
+    scene.setting.target = {7, 4};
+    scene.triangles = {triangle};
+  }
 };
 
 /// Its hypotenuse, a right edge, runs through samples.
@@ -48,6 +63,55 @@ constexpr Triangle left_edge_at(float x) { return {{{x, 0}, {8, 0}, {x, 4}}}; }
 constexpr float kSubpixel = 1.0f / 256;
 const std::string kFromColumn1 = ".######/.#####./.###.../.#.....";
 const std::string kFromColumn2 = "..#####/..####./..##.../.......";
+
+/// The scissor holds columns 2 to 4 of rows 1 to 2.
+Scene scissored(const Rect& scissor = {2, 1, 3, 2}) {
+  Scene scene;
+  scene.setting.target = {7, 4};
+  scene.setting.scissor = scissor;
+  scene.triangles = {{{{-9, -9}, {30, -9}, {-9, 30}}}};
+  return scene;
+}
+const std::string kScissored = "......./..###../..###../.......";
+
+Scene culled(CullMode cull, FrontFace front, const Triangle& triangle) {
+  Scene scene = scissored();
+  scene.setting.scissor.reset();
+  scene.setting.cull = cull;
+  scene.setting.front_face = front;
+  scene.triangles = {triangle};
+  return scene;
+}
+
+Scene multisampled(int samples, const Triangle& triangle) {
+  Scene scene;
+  const auto locations = standard_sample_locations(samples);
+  scene.setting.target = {2, 2};
+  scene.setting.sample_locations.assign(locations.begin(), locations.end());
+  scene.triangles = {triangle};
+  return scene;
+}
+
+/// Two squares, or with its second as a third and fourth triangle.
+Scene assembled(const std::vector<std::uint32_t>& indices) {
+  Scene scene;
+  scene.setting.target = {5, 2};
+  scene.setting.cull = CullMode::back;
+  scene.assembly = Assembly{Topology::strip, {{0, 0}, {2, 0}, {0, 2}, {2, 2}, {3, 0}, {5, 0}, {3, 2}, {5, 2}}, indices};
+  scene.triangles = assemble(*scene.assembly);
+  return scene;
+}
+
+Scene clip_space(const Viewport& viewport, const ClipTriangle& triangle) {
+  Scene scene;
+  scene.setting.target = {4, 4};
+  scene.clip = ClipGeometry{viewport, {triangle}};
+  return scene;
+}
+
+constexpr FrontFace kClockwise = FrontFace::clockwise;
+constexpr FrontFace kCounterClockwise = FrontFace::counter_clockwise;
+const std::string kNothing = "......./......./......./.......";
 
 const std::map<std::string_view, Exhibit> kExhibits = {
     {"top-exclusive",
@@ -77,6 +141,37 @@ const std::map<std::string_view, Exhibit> kExhibits = {
     {"y-flipped", {kUpperLeft, "###..../##...../#....../.......", "......./#....../##...../###...."}},
     {"corner-sample", {kUpperLeft, "###..../##...../#....../.......", "####.../###..../##...../#......"}},
     {"one-winding", {{{{0, 0}, {0, 4}, {4, 0}}}, "###..../##...../#....../.......", "......./......./......./......."}},
+    {"cull-flipped", {culled(CullMode::back, kClockwise, kUpperLeft), "###..../##...../#....../.......", kNothing}},
+    {"front-face-ignored",
+     {culled(CullMode::front, kCounterClockwise, kUpperLeft), "###..../##...../#....../.......", kNothing}},
+    // Clockwise as given, counter-clockwise on the grid, where the long edge, a left one, goes through (1.5, 1.5).
+    {"cull-before-snap",
+     {culled(CullMode::back, kClockwise,
+             {{{2.50244140625f, 2.5f}, {0.50244140625f, 0.5f}, {1.50146484375f, 1.498291015625f}}}),
+      kNothing, "......./.#...../......./......."}},
+    {"scissor-short-left", {scissored(), kScissored, "......./...##../...##../......."}},
+    {"scissor-short-right", {scissored(), kScissored, "......./..##.../..##.../......."}},
+    {"scissor-short-top", {scissored(), kScissored, "......./......./..###../......."}},
+    {"scissor-short-bottom", {scissored(), kScissored, "......./..###../......./......."}},
+    {"scissor-wide-left", {scissored(), kScissored, "......./.####../.####../......."}},
+    {"scissor-wide-right", {scissored(), kScissored, "......./..####./..####./......."}},
+    {"scissor-wide-top", {scissored(), kScissored, "..###../..###../..###../......."}},
+    {"scissor-wide-bottom", {scissored(), kScissored, "......./..###../..###../..###.."}},
+    {"scissor-inclusive", {scissored(), kScissored, "......./..####./..####./..####."}},
+    {"scissor-empty-ignored", {scissored({2, 1, 3, 0}), kNothing, "#######/#######/#######/#######"}},
+    // The first of two samples lies in its pixel's lower right, the first of four above the second, in another column.
+    {"samples2-swapped", {multisampled(2, {{{0, 0}, {0.5f, 0}, {0, 0.75f}}}), "+./..", "#./.."}},
+    {"samples4-swapped", {multisampled(4, {{{0.25f, 0}, {0.5f, 0}, {0.375f, 0.25f}}}), "#./..", "+./.."}},
+    {"box-sample-12", {multisampled(16, {{{0.953125f, 0}, {1.03125f, 0.5f}, {0.953125f, 1}}}), ".+/..", "../.."}},
+    {"box-sample-15", {multisampled(16, {{{0, 0.9375f}, {0.25f, 0.9375f}, {0.0625f, 1.03125f}}}), "../+.", "../.."}},
+    {"flip-turns-rule",
+     {clip_space({0, 4, 4, -4}, {{{-1, 0.75f, 0, 1}, {1, 0.75f, 0, 1}, {-1, -1, 0, 1}}}), "####/###./##../#...",
+      "..../###./##../#..."}},
+    {"strip-unturned", {assembled({0, 1, 2, 3}), "##.../##...", "#..../....."}},
+    {"restart-ignored", {assembled({0, 1, 2, 3, kRestartIndex, 4, 5, 6, 7}), "##.##/##.##", "##.../##..."}},
+    {"behind-drawn",
+     {clip_space({0, 0, 4, 4}, {{{1, 1, -0.5f, -1}, {-1, 1, -0.5f, -1}, {1, -1, -0.5f, -1}}}), "..../..../..../....",
+      "###./##../#.../...."}},
 };
 
 TEST(FaultSubject, EveryFaultShowsInAnExhibitThatTheHostDrawsExactly) {
@@ -87,9 +182,11 @@ TEST(FaultSubject, EveryFaultShowsInAnExhibitThatTheHostDrawsExactly) {
     const auto found = kExhibits.find(fault.name);
     ASSERT_NE(found, kExhibits.end());
     const Exhibit& exhibit = found->second;
-    EXPECT_EQ(draw(*host, exhibit.triangle), exhibit.exact);
-    EXPECT_EQ(draw(*ours, exhibit.triangle), exhibit.exact);
-    EXPECT_EQ(draw(*make_fault_subject(fault.name), exhibit.triangle), exhibit.faulty);
+    EXPECT_EQ(draw(*host, exhibit.scene), exhibit.exact);
+    if (!exhibit.scene.clip) {
+      EXPECT_EQ(draw(*ours, exhibit.scene), exhibit.exact);
+    }
+    EXPECT_EQ(draw(*make_fault_subject(fault.name), exhibit.scene), exhibit.faulty);
   }
   EXPECT_EQ(kExhibits.size(), faults().size());
 }

@@ -66,6 +66,7 @@ std::vector<std::string> citations() {
     if (read) texts.push_back(read->source);
   }
   for (const Generator& generator : generators()) texts.emplace_back(generator.about);
+  for (const Generator& generator : clip_generators()) texts.emplace_back(generator.about);
   return texts;
 }
 

@@ -127,7 +127,10 @@ TEST(Metamorphic, WhatAModelPredictsIsKnown) {
   Spoilt subject([](const Scene&, MaskBatch& masks) {
     for (std::size_t i = 0; i < masks.size(); ++i) masks[i][0] = 0;
   });
-  const KnownDeviation model{"spoilt", "its top row is missing",
+  const KnownDeviation model{"spoilt",
+                             {},
+                             "its top row is missing",
+                             nullptr,
                              [](const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
                                Scene scene;
                                scene.setting = setting;

@@ -6,57 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <random>
-#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "conformance/tests/snapped_triangles.h"
 #include "rasterizer/rasterizer.h"
 
 namespace edgecase::rasterizer {
 namespace {
 
-using Fixed = FixedTriangle<Format16_8>;
+using namespace snapped;
 using Words = std::vector<std::uint64_t>;
-
-constexpr std::int64_t kLow = -8388608, kHigh = 8388607;  // the ends of 16.8
-
-FixedVertex<Format16_8> vertex(std::int64_t x, std::int64_t y) { return {*Int<24>::checked(x), *Int<24>::checked(y)}; }
-
-/// A stream of triangles, each kind of which takes another way through the code.
-class Triangles {
- public:
-  Triangles(unsigned seed, const Target& target) : random_(seed), target_(target) {}
-
-  Fixed next() {
-    // Extents from under a pixel to all of the format, on the subpixel grid or on half pixels, each axis on its own.
-    const std::int64_t x_reach = reach(), y_reach = reach();
-    const std::int64_t step = random_() % 3 == 0 ? 128 : 1;
-    const std::int64_t width = target_.width().value() * 256, height = target_.height().value() * 256;
-    const std::int64_t x = between(-x_reach, width), y = between(-y_reach, height);
-    std::array<FixedVertex<Format16_8>, 3> result;
-    for (auto& v : result) {
-      const auto coordinate = [&](std::int64_t base, std::int64_t extent) {
-        return std::clamp((base + between(0, extent)) / step * step, kLow, kHigh);
-      };
-      v = vertex(coordinate(x, x_reach), coordinate(y, y_reach));
-    }
-    // Every now and then two vertices in one row, in one column, or in one place.
-    const auto kind = random_() % 16;
-    if (kind == 0) result[1].y = result[0].y;
-    if (kind == 1) result[1].x = result[2].x;
-    if (kind == 2) result[2] = result[0];
-    return result;
-  }
-
- private:
-  std::int64_t between(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  std::int64_t reach() { return std::int64_t{1} << between(5, random_() % 4 == 0 ? 24 : 15); }
-
-  std::mt19937_64 random_;
-  Target target_;
-};
 
 Words scalar(std::span<const Fixed> triangles, const Target& target) {
   Words words(target.mask_words());
@@ -73,12 +34,6 @@ Words fast_union(const FastRasterizer& fast, std::span<const Fixed> triangles, c
   Words words(target.mask_words());
   mask.to_rows(words);
   return words;
-}
-
-std::string text(const Fixed& triangle) {
-  std::ostringstream stream;
-  for (const auto& v : triangle) stream << '(' << v.x.value() << ", " << v.y.value() << ") ";
-  return stream.str();
 }
 
 class FastRasterizerTest : public testing::TestWithParam<Isa> {
@@ -162,6 +117,48 @@ TEST_P(FastRasterizerTest, LargeTrianglesInsideTheTarget) {
     triangle = {
         point(x0, y0), point(x1, y1),
         point(x0 + (x1 - x0) * along / 256 + between(-off, off), y0 + (y1 - y0) * along / 256 + between(-off, off))};
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
+}
+
+// Bands are exact up to an extent and a height: triangles on both sides of these limits, of which one edge passes a
+// pixel's centre as closely as an edge of its height can without touching it.
+TEST_P(FastRasterizerTest, TrianglesAboutAsLargeAsBandsReach) {
+  const Target target = *Target::make(2600, 2600);
+  std::mt19937_64 random(8);
+  const auto between = [&](std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
+  };
+  std::vector<Fixed> triangles;
+  while (triangles.size() < 24 * 8) {
+    // From (x, y), dy down, the edge is dx * down / dy right of x where it passes the row of a centre. That is 1 / dy
+    // off a whole number if dx * down = 1 modulo dy.
+    if (random() % 8 == 0) {
+      // One whose widest band is about as wide as they may be.
+      const std::int64_t top = between(0, 2500 * 256), right = between(1970, 2080) * 256;
+      triangles.push_back({vertex(between(0, 64), top), vertex(right, top), vertex(right / 2, between(0, 2600 * 256))});
+      continue;
+    }
+    const std::int64_t dy = random() % 4 == 0 ? between(300, 2100) * 256 + 1 : between(1980, 2010) * 256 + 1;
+    const std::int64_t down = between(1, dy - 1);
+    std::int64_t dx = 0, next = 1;
+    for (std::int64_t r = dy, next_r = down; next_r != 0;) {
+      const std::int64_t quotient = r / next_r;
+      dx = std::exchange(next, dx - quotient * next);
+      r = std::exchange(next_r, r - quotient * next_r);
+      if (next_r == 0 && r != 1) dx = 0;
+    }
+    if (dx == 0) continue;
+    dx += between(-1, 1) * dy;        // the same modulo dy, and wider
+    if (random() % 2 == 0) dx = -dx;  // to the left of the centre, or of the edge
+    const std::int64_t crossing = dx * down / dy;
+    const std::int64_t y = between(1, 100) * 256 + 128 - down % 256;
+    const std::int64_t x =
+        (random() % 2 == 0 ? 128 - crossing % 256 : between(0, 255)) + between(1290, 1310) * 256 - dx / 512 * 256;
+    const std::int64_t third = random() % 2 == 0 ? between(0, 2600 * 256) : x + between(-600, 600) * 256;
+    triangles.push_back({vertex(x, y), vertex(x + dx, y + dy), vertex(third, y + between(0, dy))});
+    const auto outside = [](const auto& v) { return v.x.value() < 0 || v.x.value() > 2600 * 256; };
+    if (std::ranges::any_of(triangles.back(), outside)) triangles.pop_back();
   }
   ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target));
 }

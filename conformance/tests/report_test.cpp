@@ -97,15 +97,22 @@ TEST(JsonReport, HasEveryKeyInTheDesignsOrder) {
     for (const auto& [key, value] : object.items()) names.push_back(key);
     return names;
   };
-  EXPECT_THAT(keys(root), ElementsAre("edgecase", "seed", "results", "totals"));
+  EXPECT_THAT(keys(root), ElementsAre("edgecase", "seed", "results", "categories", "totals"));
   ASSERT_EQ(root["results"].size(), 4u);
   for (const auto& result : root["results"]) {
     EXPECT_THAT(keys(result), ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles",
-                                          "samples_compared", "missing", "unexpected", "doubled", "known_triangles", "unpredicted",
-                                          "first", "reason", "seconds", "subject_seconds"));
+                                          "samples_compared", "missing", "unexpected", "doubled", "known_triangles",
+                                          "unpredicted", "cracks", "first", "reason", "seconds", "subject_seconds"));
   }
-  EXPECT_THAT(keys(root["totals"]), ElementsAre("pass", "fail", "known", "skip", "triangles", "samples_compared",
-                                                "missing", "unexpected", "doubled", "seconds"));
+  EXPECT_THAT(keys(root["totals"]),
+              ElementsAre("pass", "fail", "known", "skip", "triangles", "samples_compared", "missing", "unexpected",
+                          "doubled", "known_triangles", "unpredicted", "cracks", "seconds"));
+  ASSERT_EQ(root["categories"].size(), 3u);
+  for (const auto& category : root["categories"]) {
+    EXPECT_THAT(keys(category),
+                ElementsAre("subject", "category", "pass", "fail", "known", "skip", "triangles", "samples_compared",
+                            "missing", "unexpected", "doubled", "known_triangles", "unpredicted", "cracks", "causes"));
+  }
   EXPECT_THAT(keys(root["results"][1]["first"]),
               ElementsAre("kind", "triangle", "x", "y", "sample", "text", "vertices", "command"));
 }
@@ -117,7 +124,9 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["results"][0], json::parse(R"j({
       "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "snap": null, "case": "cases/a.json", "category": "edges",
       "verdict": "pass", "triangles": 4, "samples_compared": 1024, "missing": 0, "unexpected": 0, "doubled": 0,
-      "known_triangles": 0, "unpredicted": 0, "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
+      "known_triangles": 0, "unpredicted": 0,
+      "cracks": {"meshes": 0, "torn_meshes": 0, "samples_inside": 0, "holes": 0, "doubled": 0, "first": null},
+      "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
 })j"));
   EXPECT_EQ(root["results"][1]["verdict"], "fail");
   EXPECT_EQ(root["results"][1]["device"], nullptr);
@@ -131,7 +140,11 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["results"][3]["reason"], "16 samples are not supported");
   EXPECT_EQ(root["totals"], json::parse(R"j({
       "pass": 1, "fail": 1, "known": 1, "skip": 1, "triangles": 12, "samples_compared": 3072, "missing": 3,
-      "unexpected": 1, "doubled": 2, "seconds": 1.5})j"));
+      "unexpected": 1, "doubled": 2, "known_triangles": 1, "unpredicted": 0, "cracks": 0, "seconds": 1.5})j"));
+  EXPECT_EQ(root["categories"][2], json::parse(R"j({
+      "subject": "softpipe", "category": "edges", "pass": 0, "fail": 1, "known": 1, "skip": 0, "triangles": 8,
+      "samples_compared": 2048, "missing": 3, "unexpected": 1, "doubled": 2, "known_triangles": 1, "unpredicted": 0,
+      "cracks": 0, "causes": [{"verdict": "known", "reason": "breaks ties to the right", "cases": 1}]})j"));
 }
 
 TEST(JsonReport, TakesAnyBytes) {
@@ -149,29 +162,64 @@ TEST(TextReport, IsAligned) {
   Report report = one_of_each();
   report.results[0].samples_compared = 1234567;
   report.results[1].subject = "d\xc3\xa9j\xc3\xa0";
-  const auto lines = lines_of(to_text(report, false));
-  ASSERT_GE(lines.size(), 5u);
-  EXPECT_EQ(lines[0], "subject   case          verdict  triangles    samples  missing  unexpected  doubled");
-  EXPECT_EQ(lines[1], "lavapipe  cases/a.json  pass             4  1,234,567        0           0        0");
-  EXPECT_EQ(lines[2], "lavapipe  cases/c.json  skip             -          -        -           -        -");
-  EXPECT_EQ(lines[3],
-            "d\xc3\xa9j\xc3\xa0      cases/a.json  fail             4      1,024        3           1        0");
-  EXPECT_EQ(lines[4], "softpipe  cases/b.json  known            4      1,024        0           0        2");
-  EXPECT_EQ(lines[5], "");
+  const auto expected = R"(
+subject   category  cases  triangles    samples  missing  unexpected  doubled  failed  known  skipped
+lavapipe  edges         1          4  1,234,567        0           0        0       0      0        0
+lavapipe  samples       1          -          -        -           -        -       0      0        1
+déjà      edges         1          4      1,024        3           1        0       1      0        0
+softpipe  edges         1          4      1,024        0           0        2       0      1        0
+)";
+  EXPECT_EQ(to_text(report, false).substr(0, std::string(expected).size()), std::string(expected).substr(1) + "\n");
 }
 
-TEST(TextReport, FoldsCasesOfOneCategoryAndVerdict) {
+TEST(TextReport, HasALineForEachSubjectAndCategory) {
   Report report;
   for (int i = 0; i < 80; ++i) {
     report.results.push_back(passed("lavapipe", "case" + std::to_string(i), "edges"));
     report.results.push_back(i == 7 ? failed("softpipe", "case7", "edges") : passed("softpipe", "case", "edges"));
   }
   const auto lines = lines_of(to_text(report, false));
-  EXPECT_THAT(lines[1], HasSubstr("lavapipe  edges (80 cases)        pass           320   81,920"));
-  EXPECT_THAT(lines[2], HasSubstr("softpipe  edges (79 of 80 cases)  pass           316   80,896"));
-  EXPECT_THAT(lines[3],
-              HasSubstr("softpipe  case7                   fail             4    1,024        3           1"));
-  EXPECT_EQ(lines[4], "");
+  EXPECT_EQ(lines[1],
+            "lavapipe  edges        80        320   81,920        0           0        0       0      0        0");
+  EXPECT_EQ(lines[2],
+            "softpipe  edges        80        320   81,920        3           1        0       1      0        0");
+  EXPECT_EQ(lines[3], "");
+}
+
+TEST(TextReport, NamesCausesWithTheirCategories) {
+  Report report;
+  report.results = {skipped("s", "a", "edges"), skipped("s", "b", "samples"), passed("s", "c", "edges")};
+  EXPECT_THAT(to_text(report, false),
+              HasSubstr("\nskip s: 2 cases (edges, samples)\n  16 samples are not supported\n"));
+}
+
+Result torn_by_clipping() {
+  Result result = passed("lavapipe", "clip_grids", "clip_mesh");
+  result.cracks = {.meshes = 70,
+                   .torn_meshes = 2,
+                   .samples_inside = 4096,
+                   .holes = 12,
+                   .doubled = 3,
+                   .first = WrongSample{WrongSample::Kind::missing, 5, 12, 7, 0}};
+  return result;
+}
+
+TEST(Reports, CracksAreShownAndNoFailure) {
+  Report report;
+  report.results = {torn_by_clipping()};
+  const std::string text = to_text(report, false);
+  EXPECT_THAT(text, HasSubstr("\ncracks lavapipe: clip_grids\n"
+                              "  12 holes, 3 doubled among 4,096 samples inside; 2 of 70 clipped meshes torn\n"
+                              "  first: hole at pixel (12, 7), sample 0, mesh from triangle 5\n"));
+  EXPECT_THAT(lines_of(text)[0], HasSubstr("  cracks"));
+  EXPECT_THAT(text, HasSubstr("1 passed, 0 failed"));
+  const json root = json::parse(to_json(report));
+  EXPECT_EQ(root["results"][0]["cracks"], json::parse(R"j({"meshes": 70, "torn_meshes": 2, "samples_inside": 4096,
+      "holes": 12, "doubled": 3, "first": {"kind": "missing", "triangle": 5, "x": 12, "y": 7, "sample": 0}})j"));
+  EXPECT_EQ(root["categories"][0]["cracks"], 15);
+  const std::string page = to_html(report);
+  EXPECT_THAT(page, HasSubstr("Meshes that clipping tears"));
+  EXPECT_THAT(page, HasSubstr("12 holes, 3 doubled among 4,096 samples inside"));
 }
 
 TEST(TextReport, ExplainsWhatDidNotPass) {
@@ -195,7 +243,7 @@ TEST(TextReport, ColoursOnlyATerminal) {
   report.results[0].testcase = kHostile;
   EXPECT_THAT(to_text(report, false), Not(HasSubstr("\x1b")));
   const std::string text = to_text(report, true);
-  EXPECT_THAT(text, HasSubstr("\x1b[1;31mfail\x1b[0m     "));
+  EXPECT_THAT(text, HasSubstr("     \x1b[1;31m1\x1b[0m  "));
   EXPECT_THAT(text, Not(HasSubstr("\x1b[31m")));  // the name's own colour sequence
 }
 

@@ -59,6 +59,12 @@ TEST(WindowPosition, ASceneNeedsEveryVertex) {
   scene.triangles.clear();
   scene.clip = ClipGeometry{kViewport, {{{{-1, -1, 0, 1}, {1, -1, 0, 1}, {-1, 1, 0, 1}}}}};
   EXPECT_EQ(exact_window_triangles(scene), (std::vector<Triangle>{{{{0, 0}, {64, 0}, {0, 32}}}}));
+  scene.clip->triangles.push_back({{{5, 0, 0, -1}, {0.3f, 0, 0, -2}, {0, 1, 7, -0x1p-140f}}});  // behind the eye
+  ASSERT_TRUE(exact_window_triangles(scene));
+  EXPECT_EQ(exact_window_triangles(scene)->back(), Triangle{});
+  scene.clip->triangles[1][1].w = 0;
+  EXPECT_FALSE(exact_window_triangles(scene));
+  scene.clip->triangles.pop_back();
   scene.clip->triangles[0][2].y = 2;
   EXPECT_FALSE(exact_window_triangles(scene));
 }

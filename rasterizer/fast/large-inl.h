@@ -1,16 +1,11 @@
-// Triangles of any size: the rows from the top to the middle vertex, then those to the
-// bottom one, in bands of rows. A band has one left and one right edge; the strips between them are filled without
-// being read.
+// Triangles of any size: the rows from the top to the middle vertex, then those to the bottom one, in bands of rows. A
+// band has one left and one right edge; the strips between them are filled without being read.
 //
 // Counts (see small-inl.h) are the integer part of t(row) = (c - 1/2) / dy + 1, which is at least 1/(2 dy) away from
-// every integer, in fixed point with 44 fraction bits. The fixed-point t and its slope are rounded from quotients of
-// binary64: with |t| <= 2^16 + 1 px in the rows of the edge, R <= 2^14 rows and hence |slope| R <= 2^17 (a slope is
-// used only if there are two rows), t is off by less than 2^17 2^-52 + 2^-44, the slope, R times, by less than 2^17
-// 2^-52 + R 2^-44, together below 2^-29: less than 1/(2 dy) >= 2^-25.
-//
-// Within a band the rows are in lanes of 32 bits: 21 fraction bits, the integer part counted from the first row's.
-// Dropping 23 fraction bits of t and of row * slope takes away less than 2^-20, so this needs 1/(2 dy) > 2^-20 + 2^-29;
-// and |row * slope| below 2^10. Edges that are higher or flatter have their counts made row by row.
+// every integer, in fixed point with 44 fraction bits. The fixed-point t and its slope are products of binary64 numbers
+// with a rounded reciprocal: with |t| <= 2^16 + 1 px in the rows of the edge, R <= 2^14 rows and hence |slope| R <=
+// 2^17 (a slope is used only if there are two rows), t is off by less than 2^17 2^-52 + 2^-44, the slope, R times, by
+// less than 2^17 2^-52 + R 2^-44, together below 2^-29: less than 1/(2 dy) >= 2^-25.
 #include "rasterizer/fast/medium-inl.h"
 
 #if defined(EDGECASE_FAST_LARGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -26,184 +21,250 @@ HWY_BEFORE_NAMESPACE();
 namespace edgecase::rasterizer::HWY_NAMESPACE {
 
 inline constexpr int kFractionBits = 44;
-inline constexpr int kLaneFractionBits = 21;
-inline constexpr int kDroppedBits = kFractionBits - kLaneFractionBits;
-/// Edges up to 2000 px high and 32 px a row flat are drawn with their rows in lanes.
-inline constexpr std::int64_t kMostLaneHeight = 2000 * 256;
-inline constexpr std::int64_t kMostLaneSlope = std::int64_t{32} << kFractionBits;
-static_assert(1 / (2.0 * kMostLaneHeight) > 0x1p-20 + 0x1p-29);
-static_assert((kMostLaneSlope >> kDroppedBits) * kMaxLanes <= (std::int64_t{1} << 30));
+inline constexpr int kStripBits = 5;
+static_assert(1 << kStripBits == kStripWidth);
 
 struct Point {
   std::int32_t x;
   std::int32_t y;
 };
 
-/// The least and the greatest count of a band's rows.
-struct Range {
-  int low, high;
-};
+/// The crossings of an edge with rows, from some row on.
+struct Crossings {
+  std::int64_t t;      ///< in that row
+  std::int64_t slope;  ///< from row to row
 
-/// The crossings of an edge with the rows from `row` on.
-class Crossings {
- public:
   /// `rows`: how many of them will be asked for, at least one.
   Crossings(const Point& a, const Point& b, int row, int rows) {
     const std::int64_t dx = b.x - a.x;
     const std::int64_t dy = b.y - a.y;
     const std::int64_t n = dy * (a.x - 128) + dx * (std::int64_t{row} * 256 + 128 - a.y);
     const std::int64_t c = (n + 255) >> 8;
-    const auto height = static_cast<double>(dy);
-    t_ = static_cast<std::int64_t>(static_cast<double>(2 * c - 1 + 2 * dy) / (2 * height) * 0x1p44);
-    slope_ = rows > 1 ? static_cast<std::int64_t>(static_cast<double>(dx) / height * 0x1p44) : 0;
-    falling_ = slope_ >> 63;
-    lanes_ = dy <= kMostLaneHeight && slope_ < kMostLaneSlope && slope_ > -kMostLaneSlope;
-    if (!lanes_) return;
-    const auto d = DI32();
-    const I32 row_number = hn::Iota(d, 0);
-    const auto whole = static_cast<std::int32_t>(slope_ >> kDroppedBits);
-    const auto rest = static_cast<std::int32_t>(slope_ & ((std::int64_t{1} << kDroppedBits) - 1));
-    const I32 rests = hn::ShiftRight<kDroppedBits>(hn::Mul(row_number, hn::Set(d, rest)));
-    steps_ = hn::Add(hn::Mul(row_number, hn::Set(d, whole)), rests);
+    const double scale = 0x1p44 / static_cast<double>(2 * dy);
+    t = static_cast<std::int64_t>(static_cast<double>(2 * c - 1 + 2 * dy) * scale);
+    slope = rows > 1 ? static_cast<std::int64_t>(static_cast<double>(2 * dx) * scale) : 0;
   }
-
-  /// The least and the greatest count of the next `rows` rows. Which end has which is known before.
-  Range range(int rows) const {
-    const std::int64_t change = (rows - 1) * slope_;
-    return {static_cast<int>((t_ + (change & falling_)) >> kFractionBits),
-            static_cast<int>((t_ + (change & ~falling_)) >> kFractionBits)};
-  }
-
-  /// Twice the place in the middle of the next `rows` rows: what tells a left from a right edge.
-  std::int64_t middle(int rows) const { return 2 * t_ + (rows - 1) * slope_; }
-
-  /// The counts of the next kLanes rows; beyond the edge's end they are anything.
-  HWY_INLINE I32 counts() const {
-    const auto d = DI32();
-    if (HWY_LIKELY(lanes_)) {
-      constexpr std::int64_t kFraction = (std::int64_t{1} << kFractionBits) - 1;
-      const auto fraction = static_cast<std::int32_t>((t_ & kFraction) >> kDroppedBits);
-      const I32 first = hn::Set(d, static_cast<std::int32_t>(t_ >> kFractionBits));
-      return hn::Add(first, hn::ShiftRight<kLaneFractionBits>(hn::Add(steps_, hn::Set(d, fraction))));
-    }
-    HWY_ALIGN std::int32_t row_counts[kMaxLanes];
-    auto t = static_cast<std::uint64_t>(t_);
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      row_counts[i] = static_cast<std::int32_t>(static_cast<std::int64_t>(t) >> kFractionBits);
-      t += static_cast<std::uint64_t>(slope_);
-    }
-    return hn::Load(d, row_counts);
-  }
-
-  /// A whole number of pixels, at least 1, that a row moves the crossing by at most.
-  int reach() const { return static_cast<int>((slope_ < 0 ? -slope_ : slope_) >> kFractionBits) + 1; }
 
   /// In unsigned arithmetic, as what lies beyond the edge's end may wrap.
   void skip(int rows) {
-    t_ = static_cast<std::int64_t>(static_cast<std::uint64_t>(t_) +
-                                   static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(slope_));
+    t = static_cast<std::int64_t>(static_cast<std::uint64_t>(t) +
+                                  static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(slope));
+  }
+};
+
+/// Whether the crossings of both move by less than a pixel from row to row.
+inline bool are_steep(const Crossings& a, const Crossings& b) {
+  constexpr std::int64_t kPixel = std::int64_t{1} << kFractionBits;
+  return std::max(a.slope, b.slope) < kPixel && std::min(a.slope, b.slope) > -kPixel;
+}
+
+/// How far the crossings of `rows` rows come from the first one, to the left and to the right.
+struct Drift {
+  std::int64_t left;
+  std::int64_t right;
+  Drift(std::int64_t slope, int rows) {
+    const std::int64_t change = (rows - 1) * slope;
+    left = change < 0 ? change : 0;
+    right = change < 0 ? 0 : change;
+  }
+};
+
+HWY_INLINE U32 bits_from(U32 count) { return bits_from(hn::BitCast(DI32(), count)); }
+
+// Bands.
+//
+// Within a band the rows are in lanes of 32 bits, 21 of them fraction bits, counted from the left side of the band's
+// first strip: 0 <= count < 2^11. Dropping 23 fraction bits of t and of row * slope takes away less than 2^-20, so this
+// needs 1/(2 dy) > 2^-20 + 2^-29. What is above 32 bits is lost, and need not be known. Of an edge of fewer rows than a
+// band has, or even one, |slope| is below 2^11 px: a band's drift fits 64 bits.
+inline constexpr int kLaneFractionBits = 21;
+inline constexpr int kDroppedBits = kFractionBits - kLaneFractionBits;
+inline constexpr int kMostBandExtent = (1 << (32 - kLaneFractionBits)) - 2 * kStripWidth;
+/// Edges up to 2000 px high are drawn in bands.
+inline constexpr std::int64_t kMostBandHeight = 2000 * 256;
+static_assert(1 / (2.0 * kMostBandHeight) > 0x1p-20 + 0x1p-29);
+
+inline constexpr int kLaneRows = static_cast<int>(kLanes);
+
+/// A number for each row of a band.
+template <int Rows>
+struct BandRows {
+  static constexpr int kVectors = Rows / kLaneRows;
+  static_assert(kVectors * kLaneRows == Rows && Rows <= kRowsBelow);
+  U32 vectors[kVectors];
+};
+
+/// max(counts - columns, 0) of counts below 2^16.
+HWY_INLINE U32 beyond(U32 counts, int columns) {
+#if HWY_TARGET == HWY_SCALAR
+  const U32 least = hn::Set(DU32(), static_cast<std::uint32_t>(columns));
+  return hn::Sub(hn::Max(counts, least), least);
+#else
+  const hn::Repartition<std::uint16_t, DU32> halves;
+  const U32 wide = hn::Set(DU32(), static_cast<std::uint32_t>(columns));
+  return hn::BitCast(DU32(), hn::SaturatedSub(hn::BitCast(halves, counts), hn::BitCast(halves, wide)));
+#endif
+}
+
+/// An edge's crossings in bands of `Rows` rows.
+template <int Rows>
+class BandEdge {
+ public:
+  using Counts = BandRows<Rows>;
+
+  explicit BandEdge(const Crossings& c) : t_(c.t), slope_(c.slope), drift_(c.slope, Rows) {
+    const auto d = DI32();
+    const auto whole = static_cast<std::int32_t>(slope_ >> kDroppedBits);
+    const auto rest = static_cast<std::int32_t>(slope_ & ((std::int64_t{1} << kDroppedBits) - 1));
+    static_assert((std::int64_t{Rows} << kDroppedBits) <= (std::int64_t{1} << 31));
+    for (int i = 0; i < Counts::kVectors; ++i) {
+      const I32 row = hn::Iota(d, i * kLaneRows);
+      const I32 rests = hn::ShiftRight<kDroppedBits>(hn::Mul(row, hn::Set(d, rest)));
+      steps_.vectors[i] = hn::BitCast(DU32(), hn::Add(hn::Mul(row, hn::Set(d, whole)), rests));
+    }
+  }
+
+  std::int64_t leftmost() const { return t_ + drift_.left; }
+  std::int64_t rightmost() const { return t_ + drift_.right; }
+  std::int64_t leftmost(int rows) const { return t_ + Drift(slope_, rows).left; }
+  std::int64_t rightmost(int rows) const { return t_ + Drift(slope_, rows).right; }
+  void skip_band() { t_ += Rows * slope_; }
+
+  /// The counts of a band's rows, from strip `first` on.
+  HWY_INLINE Counts counts(int first) const {
+    const std::int64_t from = t_ - (std::int64_t{first} << (kFractionBits + kStripBits));
+    const U32 start = hn::Set(DU32(), static_cast<std::uint32_t>(from >> kDroppedBits));
+    Counts counts;
+    for (int i = 0; i < Counts::kVectors; ++i) {
+      counts.vectors[i] = hn::ShiftRight<kLaneFractionBits>(hn::Add(start, steps_.vectors[i]));
+    }
+    return counts;
   }
 
  private:
   std::int64_t t_;
   std::int64_t slope_;
-  std::int64_t falling_;  ///< all bits set if the crossings move to the left
-  bool lanes_;
-  I32 steps_ = hn::Zero(DI32());
+  Drift drift_;
+  Counts steps_;
 };
 
-/// The bits of a strip from the counts on.
-HWY_INLINE U32 bits_from(I32 counts, int strip) {
-  const auto d = DI32();
-  return bits_from(hn::Max(hn::Sub(counts, hn::Set(d, strip * kStripWidth)), hn::Zero(d)));
-}
+/// Up to that many strips of a band are not asked whether they hold an edge.
+inline constexpr int kStripsToAdd = 8;
 
-/// Draws rows from `row` to before `end` in bands of Rows rows, of which neither edge moves further than a strip is
-/// wide, inside the target. An edge then shows in at most two strips of a band, and these are drawn without asking: in
-/// a strip without the edge the same expression gives all bits or none.
+inline int strip_of(std::int64_t t) { return static_cast<int>(t >> (kFractionBits + kStripBits)); }
+/// That of the last pixel before the count of t.
+inline int last_strip_before(std::int64_t t) { return strip_of(t - (std::int64_t{1} << kFractionBits)); }
+
+/// Adds what lies between both counts of a band's rows to the strip from which they are counted.
 template <int Rows>
-HWY_INLINE void draw_bands(Crossings& left, Crossings& right, int row, int end, const Strips& strips) {
-  constexpr int kLaneRows = static_cast<int>(kLanes);
-  constexpr int kVectors = Rows / kLaneRows;
-  static_assert(kVectors * kLaneRows == Rows && Rows <= kRowsBelow);
-  const auto d = DI32();
-  const auto du = DU32();
-  const U32 ones = hn::Set(du, ~std::uint32_t{0});
-  for (; row < end; row += Rows) {
-    const int rows = end - row < Rows ? end - row : Rows;
-    const int first = left.range(rows).low >> 5;
-    const int last = (right.range(rows).high - 1) >> 5;
-    I32 left_counts[kVectors], right_counts[kVectors];
-    for (int i = 0; i < kVectors; ++i) {
-      left_counts[i] = left.counts();
-      right_counts[i] = right.counts();
-      left.skip(kLaneRows);
-      right.skip(kLaneRows);
-    }
-    if (last < first) continue;
-    std::uint32_t* const words = strips.words + row;
-    const auto word = [&](int strip) { return words + static_cast<std::size_t>(strip) * strips.stride; };
-    const bool whole = rows == Rows;
-    if (last - first >= 3 && whole) {
-      std::uint32_t* to = word(first);
-      std::uint32_t* const stop = word(last - 1);
-      for (int i = 0; i < kVectors; ++i) {
-        add(bits_from(left_counts[i], first), to + i * kLaneRows);
-        add(bits_from(left_counts[i], first + 1), to + strips.stride + i * kLaneRows);
-        add(hn::Not(bits_from(right_counts[i], last - 1)), stop + i * kLaneRows);
-        add(hn::Not(bits_from(right_counts[i], last)), stop + strips.stride + i * kLaneRows);
-      }
-      for (to += 2 * strips.stride; to != stop; to += strips.stride) {
-        for (int i = 0; i < kVectors; ++i) hn::StoreU(ones, du, to + i * kLaneRows);
-      }
-      continue;
-    }
-    if (!whole) {
-      // Rows behind the last get both counts the same, hence nothing between them.
-      for (int i = 0; i < kVectors; ++i) {
-        const M32 live = hn::Lt(hn::Iota(d, i * kLaneRows), hn::Set(d, rows));
-        left_counts[i] = hn::IfThenElseZero(live, left_counts[i]);
-        right_counts[i] = hn::IfThenElseZero(live, right_counts[i]);
-      }
-    }
-    int strip = first;
-    const auto draw_strip = [&] {
-      for (int i = 0; i < kVectors; ++i) {
-        add(hn::Xor(bits_from(left_counts[i], strip), bits_from(right_counts[i], strip)), word(strip) + i * kLaneRows);
-      }
-      ++strip;
-    };
-    draw_strip();
-    do draw_strip();
-    while (strip <= last);
+HWY_INLINE void add_between(const BandRows<Rows>& left, const BandRows<Rows>& right, std::uint32_t* to) {
+  for (int i = 0; i < BandRows<Rows>::kVectors; ++i) {
+    add(hn::Xor(bits_from(left.vectors[i]), bits_from(right.vectors[i])), to + i * kLaneRows);
   }
 }
 
+/// The same for the strip that begins `columns` right of it.
+template <int Rows>
+HWY_INLINE void add_between(const BandRows<Rows>& left, const BandRows<Rows>& right, int columns, std::uint32_t* to) {
+  for (int i = 0; i < BandRows<Rows>::kVectors; ++i) {
+    add(hn::Xor(bits_from(beyond(left.vectors[i], columns)), bits_from(beyond(right.vectors[i], columns))),
+        to + i * kLaneRows);
+  }
+}
+
+/// The same for `count` strips. Two are drawn without asking, in which thin and small triangles show in most bands, and
+/// the others two by two: one more than there are has nothing added to it.
+template <int Rows>
+HWY_INLINE void add_strips(const BandRows<Rows>& left, const BandRows<Rows>& right, int count, std::size_t stride,
+                           std::uint32_t* to) {
+  add_between(left, right, to);
+  add_between(left, right, kStripWidth, to + stride);
+  for (int strip = 2; strip < count; strip += 2) {
+    to += 2 * stride;
+    add_between(left, right, strip * kStripWidth, to);
+    add_between(left, right, (strip + 1) * kStripWidth, to + stride);
+  }
+}
+
+/// Draws rows begin <= row < end, crossed by both edges, inside the target.
+template <int Rows>
+HWY_INLINE void draw_bands(const Crossings& left_crossings, const Crossings& right_crossings, int begin, int end,
+                           const Strips& strips) {
+  using Counts = BandRows<Rows>;
+  BandEdge<Rows> left(left_crossings), right(right_crossings);
+  std::uint32_t* words = strips.words + begin;
+  const auto word = [&](int strip) { return words + static_cast<std::size_t>(strip) * strips.stride; };
+  int rows = end - begin;
+  for (; rows >= Rows; rows -= Rows, words += Rows, left.skip_band(), right.skip_band()) {
+    const int first = strip_of(left.leftmost());
+    const int last = last_strip_before(right.rightmost());
+    if (last < first) continue;
+    const Counts left_counts = left.counts(first), right_counts = right.counts(first);
+    if (last - first < kStripsToAdd) {
+      add_strips(left_counts, right_counts, last - first + 1, strips.stride, word(first));
+      continue;
+    }
+    // Strips from `full` to `ending` hold no edge.
+    const int full = strip_of(left.rightmost()) + 1;
+    const int ending = strip_of(right.leftmost());
+    int strip = first;
+    for (; strip < full; ++strip) add_between(left_counts, right_counts, (strip - first) * kStripWidth, word(strip));
+    for (; strip < ending; ++strip) {
+      for (int i = 0; i < Rows; i += kLaneRows) {
+        hn::StoreU(hn::Set(DU32(), ~std::uint32_t{0}), DU32(), word(strip) + i);
+      }
+    }
+    for (; strip <= last; ++strip) add_between(left_counts, right_counts, (strip - first) * kStripWidth, word(strip));
+  }
+  if (rows == 0) return;
+  const int first = strip_of(left.leftmost(rows));
+  const int last = last_strip_before(right.rightmost(rows));
+  if (last < first) return;
+  Counts left_counts = left.counts(first), right_counts = right.counts(first);
+  for (int i = 0; i < Counts::kVectors; ++i) {
+    // Rows behind the last get both counts the same, hence nothing between them.
+    const M32 live = hn::Lt(hn::Iota(DI32(), i * kLaneRows), hn::Set(DI32(), rows));
+    left_counts.vectors[i] = keep(live, left_counts.vectors[i]);
+    right_counts.vectors[i] = keep(live, right_counts.vectors[i]);
+  }
+  add_strips(left_counts, right_counts, last - first + 1, strips.stride, word(first));
+}
+
+/// The counts of the next kLanes rows; beyond the edge's end they are anything.
+HWY_INLINE I32 row_counts(const Crossings& c) {
+  HWY_ALIGN std::int32_t counts[kMaxLanes];
+  auto t = static_cast<std::uint64_t>(c.t);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    counts[i] = static_cast<std::int32_t>(static_cast<std::int64_t>(t) >> kFractionBits);
+    t += static_cast<std::uint64_t>(c.slope);
+  }
+  return hn::Load(DI32(), counts);
+}
+
 /// Draws rows from `row` to before `end`, kLanes at a time, anywhere.
-HWY_INLINE void draw_flat_rows(Crossings& left, Crossings& right, int row, int end, const Strips& strips) {
+inline void draw_anywhere(Crossings left, Crossings right, int row, int end, const Strips& strips) {
   const auto d = DI32();
   const auto du = DU32();
   constexpr int kBand = static_cast<int>(kLanes);
-  const auto clipped = [&](int strip) {
-    const int positive = strip < 0 ? 0 : strip;
-    return positive > strips.count ? strips.count : positive;
+  const auto clipped = [&](std::int64_t t) {
+    return static_cast<int>(std::clamp<std::int64_t>(t >> (kFractionBits + kStripBits), 0, strips.count));
   };
+  constexpr std::int64_t kAllButOne = ((std::int64_t{1} << kStripBits) - 1) << kFractionBits;
   for (; row < end; row += kBand) {
     const int rows = end - row < kBand ? end - row : kBand;
-    const Range left_range = left.range(rows), right_range = right.range(rows);
+    const Drift left_drift(left.slope, rows), right_drift(right.slope, rows);
     // Rows behind the last have both counts the same, hence nothing between them.
     const M32 live = hn::Lt(hn::Iota(d, 0), hn::Set(d, rows));
-    const I32 left_counts = hn::IfThenElseZero(live, left.counts());
-    const I32 right_counts = hn::IfThenElseZero(live, right.counts());
+    const I32 left_counts = hn::IfThenElseZero(live, row_counts(left));
+    const I32 right_counts = hn::IfThenElseZero(live, row_counts(right));
     // Strips from `first` to `stop` hold samples, those from `full` to `ending` no edge.
-    const int first = clipped(left_range.low >> 5);
-    const int full = clipped((left_range.high + kStripWidth - 1) >> 5);
-    const int ending = clipped(right_range.low >> 5);
-    const int stop = clipped((right_range.high + kStripWidth - 1) >> 5);
+    const int first = clipped(left.t + left_drift.left);
+    const int full = clipped(left.t + left_drift.right + kAllButOne);
+    const int ending = clipped(right.t + right_drift.left);
+    const int stop = clipped(right.t + right_drift.right + kAllButOne);
     std::uint32_t* to = strips.words + row + static_cast<std::size_t>(first) * strips.stride;
-    const auto draw_edges = [&](int strip) {
-      add(hn::Xor(bits_from(left_counts, strip), bits_from(right_counts, strip)), to);
-    };
+    const auto draw_edges = [&](int strip)
+                                HWY_ATTR { add(bits_between(left_counts, right_counts, strip * kStripWidth), to); };
     int strip = first;
     if (ending - full > 1 && rows == kBand) {
       for (; strip < full; ++strip, to += strips.stride) draw_edges(strip);
@@ -215,22 +276,6 @@ HWY_INLINE void draw_flat_rows(Crossings& left, Crossings& right, int row, int e
   }
 }
 
-/// Rows begin <= row < end, crossed by both edges. `inside`: no sample lies left or right of the target.
-HWY_INLINE void draw_rows(Crossings& one, Crossings& other, int begin, int end, bool inside, const Strips& strips) {
-  // Where the two are equal but for rounding, so are their counts.
-  const bool in_order = one.middle(end - begin) <= other.middle(end - begin);
-  Crossings& left = in_order ? one : other;
-  Crossings& right = in_order ? other : one;
-  const int reach = inside ? std::max(left.reach(), right.reach()) : kStripWidth;
-  if (reach <= 1) {
-    draw_bands<kStripWidth>(left, right, begin, end, strips);
-  } else if (reach <= 2) {
-    draw_bands<kStripWidth / 2>(left, right, begin, end, strips);
-  } else {
-    draw_flat_rows(left, right, begin, end, strips);
-  }
-}
-
 HWY_INLINE void sort_by_y(Point& a, Point& b) {
   const bool swap = b.y < a.y;
   const Point upper{swap ? b.x : a.x, swap ? b.y : a.y};
@@ -238,10 +283,10 @@ HWY_INLINE void sort_by_y(Point& a, Point& b) {
   a = upper;
 }
 
-/// `origin`, in subpixels, is where the strips begin.
-inline void draw_large(const FixedTriangle<Format16_8>& triangle, Point origin, int width, const Strips& strips) {
+/// Never inlined, so that its code is the same whoever calls it.
+HWY_NOINLINE void draw_large(const FixedTriangle<ShiftedFormat>& triangle, int width, const Strips& strips) {
   Point v[3];
-  for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value() - origin.x, triangle[i].y.value() - origin.y};
+  for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value(), triangle[i].y.value()};
   sort_by_y(v[0], v[1]);
   sort_by_y(v[1], v[2]);
   sort_by_y(v[0], v[1]);
@@ -249,17 +294,27 @@ inline void draw_large(const FixedTriangle<Format16_8>& triangle, Point origin, 
   const int top = first_row(v[0]), middle = first_row(v[1]), bottom = first_row(v[2]);
   if (top >= bottom) return;
   const auto [leftmost, rightmost] = std::minmax({v[0].x, v[1].x, v[2].x});
-  const bool inside = leftmost >= 0 && rightmost <= width * 256;
+  const bool in_bands = leftmost >= 0 && rightmost <= width * 256 && rightmost - leftmost <= kMostBandExtent * 256 &&
+                        v[2].y - v[0].y <= kMostBandHeight;
+  // Which of the edges is left; where they lie in one line it does not matter.
+  const bool longer_is_left =
+      std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y) < std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y);
+  const auto draw_rows = [&](const Crossings& longer, const Crossings& shorter, int begin, int end) {
+    const Crossings& left = longer_is_left ? longer : shorter;
+    const Crossings& right = longer_is_left ? shorter : longer;
+    if (!in_bands) {
+      draw_anywhere(left, right, begin, end, strips);
+    } else if (are_steep(left, right)) {
+      draw_bands<2 * kMaxLanes>(left, right, begin, end, strips);
+    } else {
+      draw_bands<kMaxLanes>(left, right, begin, end, strips);
+    }
+  };
   Crossings longer(v[0], v[2], top, bottom - top);
-  if (top < middle) {
-    Crossings down = longer;
-    Crossings upper(v[0], v[1], top, middle - top);
-    draw_rows(down, upper, top, middle, inside, strips);
-  }
+  if (top < middle) draw_rows(longer, Crossings(v[0], v[1], top, middle - top), top, middle);
   if (middle < bottom) {
     longer.skip(middle - top);
-    Crossings lower(v[1], v[2], middle, bottom - middle);
-    draw_rows(longer, lower, middle, bottom, inside, strips);
+    draw_rows(longer, Crossings(v[1], v[2], middle, bottom - middle), middle, bottom);
   }
 }
 

@@ -1,0 +1,148 @@
+// The planted faults, one line each. For fault_subject.cpp alone.
+#pragma once
+
+#include <string_view>
+
+#include "conformance/subjects/fault_subject.h"
+
+namespace edgecase::conformance {
+
+enum class Fault {
+  none,
+  top_exclusive,
+  left_exclusive,
+  slanted_left_exclusive,
+  right_inclusive,
+  vertical_right_inclusive,
+  bottom_inclusive,
+  all_exclusive,
+  all_inclusive,
+  snap_truncate,
+  snap_floor,
+  snap_half_up,
+  snap_half_away,
+  box_short_left,
+  box_short_right,
+  box_short_top,
+  box_short_bottom,
+  overflow_c,
+  y_flipped,
+  corner_sample,
+  one_winding,
+  cull_flipped,
+  cull_before_snap,
+  front_face_ignored,
+  scissor_short_left,
+  scissor_short_right,
+  scissor_short_top,
+  scissor_short_bottom,
+  scissor_wide_left,
+  scissor_wide_right,
+  scissor_wide_top,
+  scissor_wide_bottom,
+  scissor_inclusive,
+  scissor_empty_ignored,
+  samples2_swapped,
+  samples4_swapped,
+  box_sample_12,
+  box_sample_15,
+  flip_turns_rule,
+  strip_unturned,
+  restart_ignored,
+  behind_drawn,
+};
+
+struct PlantedFault {
+  Fault fault;
+  FaultInfo info;
+};
+
+inline constexpr std::string_view kOffGrid = "vertices between two grid points, as clipping and transforms leave them";
+inline constexpr std::string_view kOffGridTies = "vertices exactly half way between two grid points";
+inline constexpr std::string_view kAnyTriangle =
+    "almost any triangle that touches a sample at that side of its bounding box";
+inline constexpr std::string_view kAnyCulling = "culling, with almost any triangle";
+inline constexpr std::string_view kAnyScissor = "triangles across that side of the scissor";
+
+inline constexpr PlantedFault kPlanted[] = {
+    {Fault::top_exclusive,
+     {"top-exclusive", "samples on a top edge are left out", "a horizontal edge through sample points, inside below"}},
+    {Fault::left_exclusive,
+     {"left-exclusive", "samples on a left edge are left out", "a left edge of any slope through sample points"}},
+    {Fault::slanted_left_exclusive,
+     {"slanted-left-exclusive", "only exactly vertical edges count as left edges",
+      "a left edge that is not vertical, through sample points"}},
+    {Fault::right_inclusive,
+     {"right-inclusive", "the bias is missing on right edges, samples on them are covered",
+      "a right edge of any slope through sample points; doubles in a mesh"}},
+    {Fault::vertical_right_inclusive,
+     {"vertical-right-inclusive", "the bias is missing on vertical right edges only",
+      "a vertical right edge through sample points"}},
+    {Fault::bottom_inclusive,
+     {"bottom-inclusive", "the bias is missing on bottom edges, samples on them are covered",
+      "a horizontal edge through sample points, inside above; doubles in a mesh"}},
+    {Fault::all_exclusive,
+     {"all-exclusive", "> for >=: samples on any edge are left out", "any edge through sample points; gaps in a mesh"}},
+    {Fault::all_inclusive,
+     {"all-inclusive", "no bias at all: samples on any edge are covered",
+      "any edge through sample points; doubles in a mesh"}},
+    {Fault::snap_truncate, {"snap-truncate", "vertices are snapped by truncation towards zero", kOffGrid}},
+    {Fault::snap_floor, {"snap-floor", "vertices are snapped downwards", kOffGrid}},
+    {Fault::snap_half_up, {"snap-half-up", "snapping moves ties upwards instead of to even", kOffGridTies}},
+    {Fault::snap_half_away, {"snap-half-away", "snapping moves ties away from zero instead of to even", kOffGridTies}},
+    {Fault::box_short_left, {"box-short-left", "the bounding box lacks its leftmost column", kAnyTriangle}},
+    {Fault::box_short_right, {"box-short-right", "the bounding box lacks its rightmost column", kAnyTriangle}},
+    {Fault::box_short_top, {"box-short-top", "the bounding box lacks its top row", kAnyTriangle}},
+    {Fault::box_short_bottom, {"box-short-bottom", "the bounding box lacks its bottom row", kAnyTriangle}},
+    {Fault::overflow_c,
+     {"overflow-c", "the constant c of the edge functions is kept in 32 bits",
+      "coordinates whose products reach 2^31 subpixels, 181 px at 8 bits"}},
+    {Fault::y_flipped, {"y-flipped", "rows are written bottom to top", "any coverage that is not symmetric"}},
+    {Fault::corner_sample,
+     {"corner-sample", "samples are taken in the pixel's top-left corner", "any edge between a centre and its corner"}},
+    {Fault::one_winding, {"one-winding", "counter-clockwise triangles are dropped", "triangles of both windings"}},
+    {Fault::cull_flipped, {"cull-flipped", "fronts are culled for backs, and backs for fronts", kAnyCulling}},
+    {Fault::cull_before_snap,
+     {"cull-before-snap", "culling goes by the winding in binary32 before the snap",
+      "culling of triangles that snapping turns over"}},
+    {Fault::front_face_ignored,
+     {"front-face-ignored", "fronts are clockwise, whatever is asked for", "culling with counter-clockwise fronts"}},
+    {Fault::scissor_short_left, {"scissor-short-left", "the scissor lacks its leftmost column", kAnyScissor}},
+    {Fault::scissor_short_right, {"scissor-short-right", "the scissor lacks its rightmost column", kAnyScissor}},
+    {Fault::scissor_short_top, {"scissor-short-top", "the scissor lacks its top row", kAnyScissor}},
+    {Fault::scissor_short_bottom, {"scissor-short-bottom", "the scissor lacks its bottom row", kAnyScissor}},
+    {Fault::scissor_wide_left,
+     {"scissor-wide-left", "the scissor lets a column too many through on its left", kAnyScissor}},
+    {Fault::scissor_wide_right,
+     {"scissor-wide-right", "the scissor lets a column too many through on its right", kAnyScissor}},
+    {Fault::scissor_wide_top, {"scissor-wide-top", "the scissor lets a row too many through above", kAnyScissor}},
+    {Fault::scissor_wide_bottom, {"scissor-wide-bottom", "the scissor lets a row too many through below", kAnyScissor}},
+    {Fault::scissor_inclusive,
+     {"scissor-inclusive", "the scissor's last column and row are taken for the ones past its end, and drawn",
+      kAnyScissor}},
+    {Fault::scissor_empty_ignored,
+     {"scissor-empty-ignored", "a scissor without a pixel is taken for none", "scissors without a pixel"}},
+    {Fault::samples2_swapped,
+     {"samples2-swapped", "two samples a pixel come in the wrong order", "edges between two samples"}},
+    {Fault::samples4_swapped,
+     {"samples4-swapped", "of four samples a pixel the first two are in each other's place",
+      "edges between two samples"}},
+    {Fault::box_sample_12,
+     {"box-sample-12", "the bounding box takes no sample to lie on its pixel's left border",
+      "16 samples a pixel, triangles that end on such a border or just past it"}},
+    {Fault::box_sample_15,
+     {"box-sample-15", "the bounding box takes no sample to lie on its pixel's upper border",
+      "16 samples a pixel, triangles that end on such a border or just past it"}},
+    {Fault::flip_turns_rule,
+     {"flip-turns-rule", "in a flipped viewport bottom edges are in, and top edges out",
+      "viewports of negative height, horizontal edges through sample points"}},
+    {Fault::strip_unturned,
+     {"strip-unturned", "every other triangle of a strip faces the wrong way", "strips, one side of them culled"}},
+    {Fault::restart_ignored,
+     {"restart-ignored", "a restart does not end a strip or a fan: the next one goes on from it",
+      "indices with restarts"}},
+    {Fault::behind_drawn,
+     {"behind-drawn", "what lies behind the eye is not clipped, but drawn upside down", "clip space with negative w"}},
+};
+
+}  // namespace edgecase::conformance
