@@ -133,6 +133,15 @@ void add_bench(CLI::App& app, BenchOptions& options) {
       ->excludes("--subject")
       ->excludes("--json")
       ->excludes("--plot");
+  bench
+      ->add_option("--scaling", options.scaling,
+                   "Instead, model and measure the speed of 1 to 64 threads, into this folder")
+      ->type_name("DIR")
+      ->excludes("--growth")
+      ->excludes("--workload")
+      ->excludes("--subject")
+      ->excludes("--json")
+      ->excludes("--plot");
 }
 
 int dispatch(int argc, char** argv) {
