@@ -77,6 +77,26 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene) {
   return result;
 }
 
+MaskBatch ClippedView::masks(const MaskBatch& whole) const {
+  MaskBatch result;
+  result.reset(MaskLayout(scene.setting), scene.triangles.size());
+  std::ranges::fill(result.data(), 0);
+  for (std::size_t i = 0; i < bearers.size(); ++i) std::ranges::copy(whole[first + i], result[bearers[i]].begin());
+  return result;
+}
+
+ClippedView clipped_view(const WindowScene& window, std::size_t first, std::size_t count) {
+  ClippedView result{Scene{window.scene.setting, window.scene.rules, {}, {}}, first, {}};
+  std::vector<Triangle>& triangles = result.scene.triangles;
+  for (std::size_t i = first; i < first + count; ++i) {
+    result.bearers.push_back(triangles.size());
+    triangles.insert(triangles.end(), window.scene.triangles.begin() + static_cast<std::ptrdiff_t>(window.first[i]),
+                     window.scene.triangles.begin() + static_cast<std::ptrdiff_t>(window.first[i + 1]));
+    if (triangles.size() == result.bearers.back()) triangles.push_back({});
+  }
+  return result;
+}
+
 void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole) {
   whole.reset(MaskLayout(window.scene.setting), window.size());
   std::ranges::fill(whole.data(), 0);

@@ -30,6 +30,18 @@ struct WindowScene {
 /// enclosing viewport).
 WindowScene window_scene(const TransformModel& model, const Scene& scene);
 
+/// Some triangles of a scene for a person to see: each as the parts that clipping left of it, or, if it left none, as
+/// one without area. The first part of each bears the mask of the whole.
+struct ClippedView {
+  Scene scene;
+  std::size_t first = 0;             ///< the scene's triangle that `bearers` begins with
+  std::vector<std::size_t> bearers;  ///< of each triangle, in `scene`
+
+  /// Mask i of `whole` is that of the scene's triangle i.
+  MaskBatch masks(const MaskBatch& whole) const;
+};
+ClippedView clipped_view(const WindowScene& window, std::size_t first, std::size_t count);
+
 /// `parts` are the masks of `window.scene`; mask i of `whole` becomes what the driver covers of triangle i.
 void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole);
 
