@@ -1,9 +1,14 @@
 // The one place where floats become coordinates of the subpixel grid.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
+#include <span>
 
 #include "rasterizer/format.h"
 #include "rasterizer/input_error.h"
@@ -42,6 +47,48 @@ template <class F>
     const auto y = snap_coordinate<F>(vertex.y);
     if (!y) return make_input_error(triangle_index, i, Axis::y, vertex.y);
     snapped[static_cast<std::size_t>(i)] = {*x, *y};
+  }
+  return std::nullopt;
+}
+
+/// The same for a list: triangle i to snapped[i]; both are equally long. After an error `snapped` is unspecified.
+///
+/// Vertices that lie on the grid already, as most do that were made for a test or snapped before, are read in a loop
+/// that compilers turn into vectors: a coordinate that a cast to an integer and back leaves as it is lies on the grid,
+/// and every way of rounding leaves it there.
+template <class F>
+[[nodiscard]] std::optional<InputError> snap_list(std::span<const Triangle> triangles,
+                                                  std::span<FixedTriangle<F>> snapped) {
+  assert(triangles.size() == snapped.size());
+  constexpr std::size_t kAtOnce = 8;
+  constexpr std::size_t kCoordinates = 6;
+  static_assert(sizeof(Triangle) == kCoordinates * sizeof(float));
+  // Exact in binary32 unless it overflows, and infinity is beyond every limit. Magnitudes compare as their bit patterns
+  // do. Below 2^24, so that all of the format's integers up to there are binary32.
+  constexpr auto kScale = static_cast<float>(std::int64_t{1} << F::kSubpixelBits);
+  constexpr auto kLimit = std::bit_cast<std::uint32_t>(static_cast<float>(1 << (std::min(F::kBits, 25) - 1)));
+  for (std::size_t first = 0; first < triangles.size(); first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, triangles.size() - first);
+    float pixels[kAtOnce * kCoordinates] = {};
+    std::int32_t whole[kAtOnce * kCoordinates];
+    std::memcpy(pixels, &triangles[first], count * sizeof(Triangle));
+    std::uint32_t off_grid = 0;
+    for (std::size_t i = 0; i < kAtOnce * kCoordinates; ++i) {
+      const auto scaled = std::bit_cast<std::uint32_t>(pixels[i] * kScale);
+      const std::uint32_t in_range = (scaled & 0x7fffffff) < kLimit ? ~std::uint32_t{0} : 0;
+      whole[i] = static_cast<std::int32_t>(std::bit_cast<float>(scaled & in_range));
+      off_grid |= std::bit_cast<std::uint32_t>(static_cast<float>(whole[i])) ^ scaled;  // of -0, too: rare
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (off_grid != 0) {
+        if (const auto error = snap<F>(triangles[first + i], snapped[first + i], first + i)) return error;
+        continue;
+      }
+      for (std::size_t v = 0; v < 3; ++v) {
+        const std::int32_t* vertex = whole + kCoordinates * i + 2 * v;
+        snapped[first + i][v] = {*F::Coordinate::checked(vertex[0]), *F::Coordinate::checked(vertex[1])};
+      }
+    }
   }
   return std::nullopt;
 }

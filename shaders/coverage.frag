@@ -8,15 +8,19 @@ layout(constant_id = 0) const uint samples = 1u;
 layout(push_constant) uniform Layout {
   uint row_words;  // 32-bit words of one row
   uint rows;
+  uint columns;
 } mask;
 #define ROW_WORDS mask.row_words
 #define ROWS mask.rows
+#define COLUMNS mask.columns
 #else
 uniform uint samples;
 uniform uint row_words;
 uniform uint rows;
+uniform uint columns;
 #define ROW_WORDS row_words
 #define ROWS rows
+#define COLUMNS columns
 #endif
 
 // A driver without gl_SampleMaskIn has one sample, which every fragment covers.
@@ -39,10 +43,13 @@ layout(std430, binding = 0) buffer Masks { uint words[]; };
 
 void main() {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
-  uint bit = pixel.x * samples;
-  uint word = (TRIANGLE * ROWS + pixel.y) * ROW_WORDS + (bit >> 5u);
-  atomicOr(words[word], COVERED << (bit & 31u));
 #ifdef COLOUR_TARGET
   colour = vec4(1.0);
 #endif
+  // There is nothing to cover beyond the target. A driver may run fragments there all the same, as llvmpipe does up to
+  // the next multiple of four pixels (conformance/models/llvmpipe_wrap.h): they would be noted in the next mask.
+  if (pixel.x >= COLUMNS || pixel.y >= ROWS) return;
+  uint bit = pixel.x * samples;
+  uint word = (TRIANGLE * ROWS + pixel.y) * ROW_WORDS + (bit >> 5u);
+  atomicOr(words[word], COVERED << (bit & 31u));
 }

@@ -98,6 +98,7 @@ class InexactContender : public MaskContender {
 std::vector<std::unique_ptr<Contender>> built_in_contenders() {
   std::vector<std::unique_ptr<Contender>> contenders;
   contenders.push_back(make_plain_contender());
+  contenders.push_back(make_vectorized_contender(8));
   contenders.push_back(make_fast_contender("edgecase", rasterizer::FastRasterizer()));
   for (const rasterizer::Isa isa : rasterizer::available_isas()) {
     contenders.push_back(make_fast_contender(fmt::format("edgecase:{}", rasterizer::name_of(isa)),
@@ -107,7 +108,7 @@ std::vector<std::unique_ptr<Contender>> built_in_contenders() {
     contenders.push_back(std::make_unique<FamilyContender>(member));
   for (const auto& info : inexact_subjects()) contenders.push_back(std::make_unique<InexactContender>(info));
   for (const int bits : kSubpixelBits) {
-    if (bits != 8) contenders.push_back(make_plain_contender(bits));
+    if (bits != 8) contenders.push_back(make_vectorized_contender(bits));
   }
   return contenders;
 }

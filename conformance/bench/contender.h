@@ -17,13 +17,16 @@
 
 namespace edgecase::conformance {
 
-/// The baseline of every ratio: edge functions stepped from pixel to pixel over the bounding box, a byte per pixel.
+/// The baseline of every ratio: edge functions stepped from pixel to pixel over the bounding box, a byte per pixel; in
+/// scalar code, as the articles write it.
 inline constexpr std::string_view kPlain = "plain";
+/// The same source as the compiler vectorizes it, for the widest instruction set that the machine has.
+inline constexpr std::string_view kPlainVectorized = "plain:vectorized";
 
 /// The subpixel bits of which speed and error are compared.
 inline constexpr std::array kSubpixelBits{0, 2, 4, 6, 8, 10, 12, 16};
 
-/// The plain loop in the format 16.`bits`: `plain` for 8, the baseline, else `plain:bitsN`.
+/// The vectorized plain loop in the format 16.`bits`: `plain:vectorized` for 8, else `plain:bitsN`.
 std::string plain_name(int bits);
 
 /// Whose time counts: that of the calling thread, which leaves out what other processes took of the processor; the time
@@ -57,8 +60,8 @@ class Contender {
   virtual void cover(std::size_t i, MutableMaskView mask) = 0;
 };
 
-/// Everything that needs no driver: plain, the fast path, best and by instruction set, the family, the inexact
-/// arithmetics, and plain in other formats.
+/// Everything that needs no driver: plain, scalar and vectorized, the fast path, best and by instruction set, the
+/// family, the inexact arithmetics, and vectorized plain in other formats.
 std::vector<std::unique_ptr<Contender>> built_in_contenders();
 
 /// A subject as a contender. It draws every triangle into a mask of its own, on the smallest target that each triangle

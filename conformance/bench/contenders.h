@@ -32,8 +32,11 @@ inline rasterizer::Target target_of(const Setting& setting) {
   return *rasterizer::Target::make(setting.target.width, setting.target.height);
 }
 
-/// The plain loop by plain_name; `bits` is one of kSubpixelBits.
-std::unique_ptr<Contender> make_plain_contender(int bits = 8);
+/// The baseline.
+std::unique_ptr<Contender> make_plain_contender();
+
+/// The vectorized plain loop by plain_name; `bits` is one of kSubpixelBits.
+std::unique_ptr<Contender> make_vectorized_contender(int bits);
 
 /// The fast path on one instruction set, all triangles into one strip mask.
 std::unique_ptr<Contender> make_fast_contender(std::string_view name, const rasterizer::FastRasterizer& fast);

@@ -105,9 +105,9 @@ std::vector<GrowthAxis> make_axes() {
        "up is all; more on the right, where the mask outgrows the caches: with a bit per pixel it is 32 MB at 16384.",
        series(64, 4, 5), by_full_target},
       {"samples", "Triangles of 200 px, a mask each, clearing included", "samples a pixel",
-       "At most slope 1: setting up is done once, each sample is tested on its own. One sample in the centre has code "
+       "At most slope 1: edges are set up once, each sample is drawn on its own. One sample in the centre has code "
        "of\\n"
-       "its own; the step to two is the step to the code for all patterns.",
+       "its own; the step to two is that to the code for all patterns, and to bringing a pixel's samples together.",
        series(1, 2, 5), by_samples, false, true},
       {"range", "Triangles that cover half of 64x64 pixels, their vertices farther and farther away",
        "distance of the vertices in px",

@@ -3,38 +3,11 @@
 #include <cstdlib>
 #include <limits>
 
+#include "conformance/bench/plain_step.h"
 #include "rasterizer/edge.h"
 
 namespace edgecase::conformance {
 namespace {
-
-template <class Integer>
-struct Steps {
-  Integer a[3], b[3], c[3];
-};
-
-struct Box {
-  int width;
-  int height;
-  std::ptrdiff_t stride;
-};
-
-template <class Integer>
-inline __attribute__((always_inline)) void step(const Steps<Integer>& edges, const Box& box, std::uint8_t* row) {
-  // Copies: a byte that is stored could be one of the caller's numbers, as far as the compiler knows.
-  const auto [a, b, c] = edges;
-  const auto [width, height, stride] = box;
-  Integer row0 = c[0], row1 = c[1], row2 = c[2];
-  for (int y = 0; y < height; ++y) {
-    Integer value0 = row0, value1 = row1, value2 = row2;
-    for (int x = 0; x < width; ++x) {
-      row[x] = static_cast<std::uint8_t>(row[x] | ((value0 | value1 | value2) >= 0 ? 1 : 0));
-      value0 += a[0], value1 += a[1], value2 += a[2];
-    }
-    row0 += b[0], row1 += b[1], row2 += b[2];
-    row += stride;
-  }
-}
 
 #if defined(__x86_64__)
 #define EDGECASE_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
@@ -42,17 +15,17 @@ inline __attribute__((always_inline)) void step(const Steps<Integer>& edges, con
 #define EDGECASE_CLONES
 #endif
 
-EDGECASE_CLONES void step32(const Steps<std::int32_t>& edges, const Box& box, std::uint8_t* row) {
-  step(edges, box, row);
+EDGECASE_CLONES void step32(const PlainEdges<std::int32_t>& edges, const PlainBox& box, std::uint8_t* pixels) {
+  step_plain(edges, box, pixels);
 }
-EDGECASE_CLONES void step64(const Steps<std::int64_t>& edges, const Box& box, std::uint8_t* row) {
-  step(edges, box, row);
+EDGECASE_CLONES void step64(const PlainEdges<std::int64_t>& edges, const PlainBox& box, std::uint8_t* pixels) {
+  step_plain(edges, box, pixels);
 }
 
 }  // namespace
 
 template <int Bits>
-void cover_plain(const rasterizer::FixedTriangle<rasterizer::Format<16, Bits>>& triangle,
+void cover_plain(PlainLoop loop, const rasterizer::FixedTriangle<rasterizer::Format<16, Bits>>& triangle,
                  const rasterizer::Target& target, std::uint8_t* pixels) {
   using Format = rasterizer::Format<16, Bits>;
   // Two values, each times up to 2^14 columns or rows, and another are added below.
@@ -65,8 +38,8 @@ void cover_plain(const rasterizer::FixedTriangle<rasterizer::Format<16, Bits>>& 
       rasterizer::sample_position<Format>(box->left, box->top, rasterizer::CentreSample::point<Format>(0));
   const auto edges = rasterizer::make_edges<Format>(*turned, origin);
   const std::ptrdiff_t stride = target.width().value();
-  const Box size{box->right.value() - box->left.value(), box->bottom.value() - box->top.value(), stride};
-  Steps<std::int64_t> wide;
+  const PlainBox size{box->right.value() - box->left.value(), box->bottom.value() - box->top.value(), stride};
+  PlainEdges<std::int64_t> wide;
   std::int64_t largest = 0;
   for (std::size_t e = 0; e < 3; ++e) {
     wide.a[e] = edges[e].a.value(), wide.b[e] = edges[e].b.value(), wide.c[e] = edges[e].c.value();
@@ -75,18 +48,24 @@ void cover_plain(const rasterizer::FixedTriangle<rasterizer::Format<16, Bits>>& 
         std::max(largest, std::abs(wide.c[e]) + std::abs(wide.a[e]) * size.width + std::abs(wide.b[e]) * size.height);
   }
   std::uint8_t* const first = pixels + box->top.value() * stride + box->left.value();
-  if (largest > std::numeric_limits<std::int32_t>::max()) return step64(wide, size, first);
-  Steps<std::int32_t> narrow;
+  if (largest > std::numeric_limits<std::int32_t>::max()) {
+    return loop == PlainLoop::scalar ? step_scalar(wide, size, first) : step64(wide, size, first);
+  }
+  PlainEdges<std::int32_t> narrow;
   for (std::size_t e = 0; e < 3; ++e) {
     narrow.a[e] = static_cast<std::int32_t>(wide.a[e]);
     narrow.b[e] = static_cast<std::int32_t>(wide.b[e]);
     narrow.c[e] = static_cast<std::int32_t>(wide.c[e]);
   }
-  step32(narrow, size, first);
+  if (loop == PlainLoop::scalar) {
+    step_scalar(narrow, size, first);
+  } else {
+    step32(narrow, size, first);
+  }
 }
 
-#define EDGECASE_PLAIN(bits)                                                                      \
-  template void cover_plain<bits>(const rasterizer::FixedTriangle<rasterizer::Format<16, bits>>&, \
+#define EDGECASE_PLAIN(bits)                                                                                 \
+  template void cover_plain<bits>(PlainLoop, const rasterizer::FixedTriangle<rasterizer::Format<16, bits>>&, \
                                   const rasterizer::Target&, std::uint8_t*)
 EDGECASE_PLAIN(0);
 EDGECASE_PLAIN(2);
@@ -98,7 +77,8 @@ EDGECASE_PLAIN(12);
 EDGECASE_PLAIN(16);
 #undef EDGECASE_PLAIN
 
-std::string plain_isa() {
+std::string plain_isa(PlainLoop loop) {
+  if (loop == PlainLoop::scalar) return "scalar";
 #if defined(__x86_64__)
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) return "avx512";

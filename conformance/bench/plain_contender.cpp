@@ -15,8 +15,9 @@ class Plain : public Contender {
  public:
   using Format = rasterizer::Format<16, Bits>;
 
-  std::string name() const override { return plain_name(Bits); }
-  std::string isa() const override { return plain_isa(); }
+  explicit Plain(PlainLoop loop) : loop_(loop) {}
+  std::string name() const override { return loop_ == PlainLoop::scalar ? std::string(kPlain) : plain_name(Bits); }
+  std::string isa() const override { return plain_isa(loop_); }
 
   tl::expected<void, Error> prepare(const Scene& scene) override {
     auto snapped = snap_all<Format>(scene);
@@ -29,7 +30,7 @@ class Plain : public Contender {
   void clear() override { std::fill(pixels_.begin(), pixels_.end(), std::uint8_t{0}); }
   tl::expected<void, Error> draw() override {
     const rasterizer::Target target = target_of(setting_);
-    for (const auto& triangle : triangles_) cover_plain(triangle, target, pixels_.data());
+    for (const auto& triangle : triangles_) cover_plain(loop_, triangle, target, pixels_.data());
     return {};
   }
   void cover(std::size_t i, MutableMaskView mask) override {
@@ -44,7 +45,7 @@ class Plain : public Contender {
       }
     };
     for_each_pixel([](int, int, std::uint8_t& pixel) { pixel = 0; });
-    cover_plain(triangles_[i], target, pixels_.data());
+    cover_plain(loop_, triangles_[i], target, pixels_.data());
     for_each_pixel([&](int x, int y, std::uint8_t& pixel) {
       if (pixel != 0) conformance::cover(mask, layout.bit(x, y, 0));
     });
@@ -55,6 +56,7 @@ class Plain : public Contender {
     return pixels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(setting_.target.width) + x;
   }
 
+  PlainLoop loop_;
   Setting setting_;
   std::vector<rasterizer::FixedTriangle<Format>> triangles_;
   std::vector<std::uint8_t> pixels_;
@@ -63,15 +65,21 @@ class Plain : public Contender {
 template <std::size_t... I>
 std::unique_ptr<Contender> make(int bits, std::index_sequence<I...>) {
   std::unique_ptr<Contender> made;
-  static_cast<void>(((kSubpixelBits[I] == bits && (made = std::make_unique<Plain<kSubpixelBits[I]>>(), true)) || ...));
+  static_cast<void>(
+      ((kSubpixelBits[I] == bits && (made = std::make_unique<Plain<kSubpixelBits[I]>>(PlainLoop::vectorized), true)) ||
+       ...));
   return made;
 }
 
 }  // namespace
 
-std::string plain_name(int bits) { return bits == 8 ? std::string(kPlain) : fmt::format("{}:bits{}", kPlain, bits); }
+std::string plain_name(int bits) {
+  return bits == 8 ? std::string(kPlainVectorized) : fmt::format("{}:bits{}", kPlain, bits);
+}
 
-std::unique_ptr<Contender> make_plain_contender(int bits) {
+std::unique_ptr<Contender> make_plain_contender() { return std::make_unique<Plain<8>>(PlainLoop::scalar); }
+
+std::unique_ptr<Contender> make_vectorized_contender(int bits) {
   return make(bits, std::make_index_sequence<kSubpixelBits.size()>());
 }
 

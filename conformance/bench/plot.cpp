@@ -121,7 +121,7 @@ std::string panel(std::span<const BenchRow> rows, const std::string& workload) {
   std::vector<const BenchRow*> here;
   for (const BenchRow& row : rows) {
     // Other formats of the plain loop have a table of their own; here they would hide the rest.
-    if (row.workload == workload && !row.rasterizer.starts_with(fmt::format("{}:", kPlain))) here.push_back(&row);
+    if (row.workload == workload && !row.rasterizer.starts_with(fmt::format("{}:bits", kPlain))) here.push_back(&row);
   }
   if (here.empty()) return "";
   const auto [fastest, slowest] =

@@ -68,7 +68,7 @@ std::string section(std::span<const BenchRow> rows, const std::string& title, Fi
   return any ? text + "\n" : "";
 }
 
-/// The subpixel bits of the plain loop's format, if that is what the row is of.
+/// The subpixel bits of the vectorized plain loop's format, if that is what the row is of.
 std::optional<int> bits_of_plain(const BenchRow& row) {
   for (const int bits : kSubpixelBits) {
     if (row.rasterizer == plain_name(bits)) return bits;
@@ -93,7 +93,8 @@ std::string formats_section(std::span<const BenchRow> rows) {
       }
     }
   }
-  return any ? "The plain loop in formats of fewer and of more subpixel bits than the rules' 8\n" + text : "";
+  return any ? "The vectorized plain loop in formats of fewer and of more subpixel bits than the rules' 8\n" + text
+             : "";
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
 
 namespace edgecase::conformance {
 namespace {
@@ -66,13 +65,30 @@ std::optional<std::string> slab_fault(std::vector<Side>& slab, std::int64_t top,
   return std::nullopt;
 }
 
-std::uint64_t hash(const GridPoint& low, const GridPoint& high) {
-  // Odd multipliers from splitmix64 and its relatives; any that spread small integers over the upper bits would do.
-  std::uint64_t h = static_cast<std::uint64_t>(low.x) * 0x9E3779B97F4A7C15u;
-  h = std::rotl(h ^ static_cast<std::uint64_t>(low.y) * 0xBF58476D1CE4E5B9u, 29);
-  h = (h ^ static_cast<std::uint64_t>(high.x)) * 0x94D049BB133111EBu;
-  h = (std::rotl(h, 31) ^ static_cast<std::uint64_t>(high.y)) * 0x9E3779B97F4A7C15u;
-  return h ^ h >> 32;
+/// The point as one number: y in its upper half, x in its lower, both moved so that none is negative.
+template <typename Key>
+Key key_of(const GridPoint& p) {
+  constexpr int kHalf = sizeof(Key) * 4;
+  constexpr Key kMoved = Key{1} << (kHalf - 1);
+  return (static_cast<Key>(p.y) + kMoved) << kHalf | (static_cast<Key>(p.x) + kMoved);
+}
+
+template <typename Key>
+GridPoint point_of(Key key) {
+  constexpr int kHalf = sizeof(Key) * 4;
+  constexpr Key kMoved = Key{1} << (kHalf - 1);
+  constexpr Key kLower = (Key{1} << kHalf) - 1;
+  return {static_cast<std::int64_t>((key & kLower) - kMoved), static_cast<std::int64_t>((key >> kHalf) - kMoved)};
+}
+
+bool fits_32_bits(std::span<const GridTriangle> mesh) {
+  std::uint64_t beyond = 0;
+  for (const GridTriangle& triangle : mesh) {
+    for (const GridPoint& p : triangle) {
+      beyond |= (static_cast<std::uint64_t>(p.x) + (1u << 31)) | (static_cast<std::uint64_t>(p.y) + (1u << 31));
+    }
+  }
+  return beyond >> 32 == 0;
 }
 
 }  // namespace
@@ -94,27 +110,12 @@ std::optional<int> common_orientation(std::span<const GridTriangle> mesh) {
   return common;
 }
 
-void OutlineBuilder::add(const GridPoint& from, const GridPoint& to) {
-  if (from == to) return;
-  const bool forward = std::pair(from.y, from.x) < std::pair(to.y, to.x);
-  const GridPoint& low = forward ? from : to;
-  const GridPoint& high = forward ? to : from;
-  std::size_t i = hash(low, high) & (slots_.size() - 1);
-  while (slots_[i].mesh == mesh_ && !(slots_[i].low == low && slots_[i].high == high)) {
-    i = (i + 1) & (slots_.size() - 1);
-  }
-  Slot& slot = slots_[i];
-  if (slot.mesh != mesh_) {
-    slot = {low, high, 0, mesh_};
-    used_.push_back(i);
-  }
-  slot.times += forward ? 1 : -1;
-}
-
-std::span<const OutlineEdge> OutlineBuilder::build(std::span<const GridTriangle> mesh) {
+template <typename Key>
+void OutlineBuilder::Edges<Key>::reserve(std::size_t triangles) {
   // At most half full, so that probing ends soon.
-  if (const std::size_t needed = std::bit_ceil(mesh.size() * 6 + 1); slots_.size() < needed) {
+  if (const std::size_t needed = std::bit_ceil(triangles * 6 + 1); slots_.size() < needed) {
     slots_.assign(needed, {});
+    hash_shift_ = 64 - std::countr_zero(needed);
     mesh_ = 0;
   }
   if (++mesh_ == 0) {
@@ -122,16 +123,57 @@ std::span<const OutlineEdge> OutlineBuilder::build(std::span<const GridTriangle>
     mesh_ = 1;
   }
   used_.clear();
-  for (const auto& [a, b, c] : mesh) {
+}
+
+template <typename Key>
+void OutlineBuilder::Edges<Key>::add(Key from, Key to) {
+  if (from == to) return;
+  const Key low = std::min(from, to);
+  const Key high = std::max(from, to);
+  // All bits of a product bear on its upper ones. Odd multipliers from splitmix64 and its relatives; any that spread
+  // small integers would do. With wide keys the upper halves, the rows, get a share by addition.
+  const auto folded = [](Key key) {
+    if constexpr (sizeof(Key) == 8) {
+      return key;
+    } else {
+      return static_cast<std::uint64_t>(key) + std::rotl(static_cast<std::uint64_t>(key >> 64), 32);
+    }
+  };
+  const std::uint64_t hash = (folded(low) * 0x9E3779B97F4A7C15u) ^ (folded(high) * 0xBF58476D1CE4E5B9u);
+  std::size_t i = hash >> hash_shift_;
+  while (slots_[i].mesh == mesh_ && !(slots_[i].low == low && slots_[i].high == high)) {
+    i = (i + 1) & (slots_.size() - 1);
+  }
+  Slot& slot = slots_[i];
+  if (slot.mesh != mesh_) {
+    slot = {low, high, 0, mesh_};
+    used_.push_back(static_cast<std::uint32_t>(i));
+  }
+  slot.times += from == low ? 1 : -1;
+}
+
+template <typename Key>
+void OutlineBuilder::Edges<Key>::collect(std::span<const GridTriangle> mesh, std::vector<OutlineEdge>& outline) {
+  reserve(mesh.size());
+  for (const GridTriangle& triangle : mesh) {
+    const Key a = key_of<Key>(triangle[0]), b = key_of<Key>(triangle[1]), c = key_of<Key>(triangle[2]);
     add(a, b);
     add(b, c);
     add(c, a);
   }
-  outline_.clear();
-  for (const std::size_t i : used_) {
+  for (const std::uint32_t i : used_) {
     const auto& [low, high, times, owner] = slots_[i];
-    if (times > 0) outline_.push_back({low, high, times});
-    if (times < 0) outline_.push_back({high, low, -times});
+    if (times > 0) outline.push_back({point_of(low), point_of(high), times});
+    if (times < 0) outline.push_back({point_of(high), point_of(low), -times});
+  }
+}
+
+std::span<const OutlineEdge> OutlineBuilder::build(std::span<const GridTriangle> mesh) {
+  outline_.clear();
+  if (fits_32_bits(mesh)) {
+    narrow_.collect(mesh, outline_);
+  } else {
+    wide_.collect(mesh, outline_);
   }
   return outline_;
 }

@@ -36,19 +36,32 @@ class OutlineBuilder {
   std::span<const OutlineEdge> build(std::span<const GridTriangle> mesh);
 
  private:
-  struct Slot {
-    GridPoint low;  ///< the end that is smaller by y, then x
-    GridPoint high;
-    int times = 0;  ///< occurrences from low to high less those from high to low
-    std::uint32_t mesh = 0;
+  /// A hash table of the edges of one mesh. A point is one number Key that orders by y, then x: comparing two of them
+  /// takes no branch, and which way an edge runs no processor can predict.
+  template <typename Key>
+  class Edges {
+   public:
+    void collect(std::span<const GridTriangle> mesh, std::vector<OutlineEdge>& outline);
+
+   private:
+    struct Slot {
+      Key low;  ///< the lesser end
+      Key high;
+      std::int32_t times = 0;  ///< occurrences from low to high less those from high to low
+      std::uint32_t mesh = 0;
+    };
+    void reserve(std::size_t triangles);
+    void add(Key from, Key to);
+
+    std::vector<Slot> slots_;  ///< open addressing; a slot of another mesh than mesh_ is free
+    int hash_shift_ = 0;
+    std::vector<std::uint32_t> used_;
+    std::uint32_t mesh_ = 0;
   };
 
-  void add(const GridPoint& from, const GridPoint& to);
-
-  std::vector<Slot> slots_;  ///< open addressing; a slot of another mesh than mesh_ is free
-  std::vector<std::size_t> used_;
+  Edges<std::uint64_t> narrow_;  ///< for coordinates of 32 bits
+  Edges<unsigned __int128> wide_;
   std::vector<OutlineEdge> outline_;
-  std::uint32_t mesh_ = 0;
 };
 
 /// Why `mesh` does not cover its region exactly once, in one line; nothing if it does.

@@ -1,8 +1,10 @@
 #include "conformance/compare/watertight.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
+#include <numeric>
 
 #include "conformance/compare/row_bits.h"
 
@@ -16,14 +18,8 @@ std::uint64_t count(std::uint64_t bits) { return static_cast<std::uint64_t>(std:
 /// Smallest integer that is not below n / d, d being positive.
 template <typename Int>
 Int ceil_div(Int n, Int d) {
-  return n / d + (n % d > 0 ? 1 : 0);
-}
-
-/// A crossing packed so that sorting orders by row, then column: row 24 bits, column 24 bits, winding change + 2^15.
-constexpr std::uint64_t kWindingBias = 1u << 15;
-
-std::uint64_t pack(std::uint64_t row, std::uint64_t column, int winding) {
-  return row << 40 | column << 16 | static_cast<std::uint64_t>(static_cast<std::int64_t>(kWindingBias) + winding);
+  const Int quotient = n / d;
+  return quotient + (quotient * d < n ? 1 : 0);
 }
 
 /// Sets the bits from `begin` to before `end` of a row that `pattern` has.
@@ -121,36 +117,65 @@ void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const Sampl
   // An edge left over twice separates windings that are not both 0 and 1; more than that need not be told apart.
   const int times = std::min(edge.times, 2);
   const int winding = (up ? times : -times) * turn;
+  if (first_row > last_row) return;
+  // The first row's sample column at or right of the edge, and how far right of it: excess / denominator columns, less
+  // than one. From row to row the edge moves by dx / dy columns.
+  const Int denominator = dy << scale_bits_;
+  const Int numerator = x0 * dy + ((first_row << scale_bits_) - y0) * dx;
+  Int column = ceil_div(numerator, denominator);
+  Int excess = column * denominator - numerator;
+  const Int step = ceil_div(dx, dy);
+  const Int step_excess = (step * dy - dx) << scale_bits_;
   for (Int row = first_row; row <= last_row; ++row) {
-    const Int y = row << scale_bits_;
-    const Int numerator = x0 * dy + (y - y0) * dx;
-    const Int denominator = dy << scale_bits_;
-    const Int column = ceil_div(numerator, denominator);
-    if (column >= width) continue;
-    if (column >= 0 && column * denominator == numerator) mark_outline(row, column, column + 1);
-    if (y == y1) continue;
-    crossings_.push_back(
-        pack(static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(std::max(Int{0}, column)), winding));
+    if (column < width) {
+      if (column >= 0 && excess == 0) mark_outline(row, column, column + 1);
+      if (row << scale_bits_ == y1) return;
+      crossings_.push_back(
+          {static_cast<std::int32_t>(row), static_cast<std::int32_t>(std::max(Int{0}, column)), winding});
+    }
+    column += step;
+    excess += step_excess;
+    if (excess >= denominator) {
+      excess -= denominator;
+      --column;
+    }
+  }
+}
+
+void WatertightChecker::sort_crossings() {
+  // Into rows by counting, then within them, where there are two or four mostly, by insertion.
+  row_places_.assign(static_cast<std::size_t>(layout_.target.height) + 1, 0);
+  for (const Crossing& crossing : crossings_) ++row_places_[static_cast<std::size_t>(crossing.row) + 1];
+  std::partial_sum(row_places_.begin(), row_places_.end(), row_places_.begin());
+  sorted_.resize(crossings_.size());
+  for (const Crossing& crossing : crossings_) sorted_[row_places_[static_cast<std::size_t>(crossing.row)]++] = crossing;
+  for (std::size_t i = 1; i < sorted_.size(); ++i) {
+    const Crossing crossing = sorted_[i];
+    const auto after = [&](const Crossing& other) {
+      return other.row == crossing.row && other.column > crossing.column;
+    };
+    std::size_t place = i;
+    for (; place > 0 && after(sorted_[place - 1]); --place) sorted_[place] = sorted_[place - 1];
+    sorted_[place] = crossing;
   }
 }
 
 bool WatertightChecker::fill_inside(std::size_t sample) {
-  std::sort(crossings_.begin(), crossings_.end());
+  sort_crossings();
   const std::size_t row_words = layout_.row_words();
-  const auto samples = static_cast<std::size_t>(layout_.samples);
-  std::int64_t winding = 0;
-  for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const std::uint64_t row = crossings_[i] >> 40;
-    const std::uint64_t begin = crossings_[i] >> 16 & 0xFFFFFF;
-    winding += static_cast<std::int64_t>(crossings_[i] & 0xFFFF) - static_cast<std::int64_t>(kWindingBias);
-    const bool last_in_row = i + 1 == crossings_.size() || crossings_[i + 1] >> 40 != row;
-    const std::uint64_t end =
-        last_in_row ? static_cast<std::uint64_t>(layout_.target.width) : crossings_[i + 1] >> 16 & 0xFFFFFF;
-    if (begin < end) {
+  const int samples = layout_.samples;
+  int winding = 0;
+  for (std::size_t i = 0; i < sorted_.size(); ++i) {
+    const Crossing& crossing = sorted_[i];
+    winding += crossing.winding;
+    const bool last_in_row = i + 1 == sorted_.size() || sorted_[i + 1].row != crossing.row;
+    const std::int32_t end = last_in_row ? layout_.target.width : sorted_[i + 1].column;
+    if (crossing.column < end) {
       if (winding != 0 && winding != 1) return false;
       if (winding == 1) {
-        fill(inside_.data() + row * row_words, sample_words_.data() + sample * row_words, begin * samples,
-             end * samples);
+        fill(inside_.data() + static_cast<std::size_t>(crossing.row) * row_words,
+             sample_words_.data() + sample * row_words, static_cast<std::size_t>(crossing.column * samples),
+             static_cast<std::size_t>(end * samples));
       }
     }
     if (last_in_row) winding = 0;
@@ -171,15 +196,23 @@ bool WatertightChecker::classify(std::span<const OutlineEdge> outline, int turn)
 }
 
 void WatertightChecker::count_layers(std::span<const std::uint64_t> masks) {
+  // A cache line of every mask at a time, so that the counters stay in registers.
+  constexpr std::size_t kAtOnce = 8;
   const std::size_t words = layout_.words();
-  std::fill(once_.begin(), once_.end(), 0);
-  std::fill(twice_.begin(), twice_.end(), 0);
-  for (std::size_t mask = 0; mask < masks.size(); mask += words) {
-    for (std::size_t i = 0; i < words; ++i) {
-      twice_[i] |= once_[i] & masks[mask + i];
-      once_[i] |= masks[mask + i];
+  const auto count_words = [&](std::size_t first, std::size_t size) {
+    std::array<std::uint64_t, kAtOnce> once{}, twice{};
+    for (std::size_t mask = first; mask < masks.size(); mask += words) {
+      for (std::size_t i = 0; i < size; ++i) {
+        twice[i] |= once[i] & masks[mask + i];
+        once[i] |= masks[mask + i];
+      }
     }
-  }
+    std::copy_n(once.begin(), size, once_.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy_n(twice.begin(), size, twice_.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  std::size_t first = 0;
+  for (; first + kAtOnce <= words; first += kAtOnce) count_words(first, kAtOnce);
+  count_words(first, words - first);
 }
 
 WrongSample WatertightChecker::locate(WrongSample::Kind kind, std::size_t word, std::uint64_t bits,
@@ -218,11 +251,22 @@ void WatertightChecker::check(std::span<const GridTriangle> mesh, std::span<cons
   }
   count_layers(masks);
 
-  bool wrong = false;
+  // Nothing to report is the common case.
+  std::uint64_t any_wrong = 0;
+  for (std::size_t word = 0; word < layout_.row_words(); ++word) {
+    const std::uint64_t samples = sample_bits(layout_, word);
+    for (std::size_t i = word; i < layout_.words(); i += layout_.row_words()) {
+      const std::uint64_t allowed = (inside_[i] | outline_[i]) & drawn_[i];
+      const std::uint64_t strictly_inside = inside_[i] & ~outline_[i] & drawn_[i];
+      if (strictly_inside != 0) total.samples_inside += count(strictly_inside);
+      any_wrong |= ((strictly_inside & ~once_[i]) | (twice_[i] & allowed) | (once_[i] & ~allowed)) & samples;
+    }
+  }
+  if (any_wrong == 0) return;
+
   const auto report = [&](WrongSample::Kind kind, std::size_t word, std::uint64_t bits, std::uint64_t& counter,
                           std::optional<WrongSample>& first) {
     if (bits == 0) return;
-    wrong = true;
     counter += count(bits);
     if (!first) first = locate(kind, word, bits, masks, first_triangle);
   };
@@ -230,12 +274,11 @@ void WatertightChecker::check(std::span<const GridTriangle> mesh, std::span<cons
     const std::uint64_t samples = sample_bits(layout_, i % layout_.row_words());
     const std::uint64_t strictly_inside = inside_[i] & ~outline_[i] & drawn_[i];
     const std::uint64_t outside = ~((inside_[i] | outline_[i]) & drawn_[i]) & samples;
-    total.samples_inside += count(strictly_inside);
     report(WrongSample::Kind::missing, i, strictly_inside & ~once_[i], total.missing, total.first_missing);
     report(WrongSample::Kind::doubled, i, twice_[i] & ~outside & samples, total.doubled, total.first_doubled);
     report(WrongSample::Kind::unexpected, i, once_[i] & outside, total.unexpected, total.first_unexpected);
   }
-  if (wrong) ++total.wrong_meshes;
+  ++total.wrong_meshes;
 }
 
 }  // namespace edgecase::conformance

@@ -54,6 +54,14 @@ class WatertightChecker {
   bool classify(std::span<const OutlineEdge> outline, int turn);
   template <typename Int>
   void scan_edge(const OutlineEdge& edge, int turn, const SampleLocation& location, std::size_t sample);
+  /// Where an edge of the outline passes between two samples of a row, or through the right one.
+  struct Crossing {
+    std::int32_t row;
+    std::int32_t column;  ///< of the sample on its right
+    std::int32_t winding;
+  };
+  /// Fills sorted_ with crossings_, by row and column.
+  void sort_crossings();
   bool fill_inside(std::size_t sample);
   void count_layers(std::span<const std::uint64_t> masks);
   WrongSample locate(WrongSample::Kind kind, std::size_t word, std::uint64_t bits, std::span<const std::uint64_t> masks,
@@ -66,11 +74,13 @@ class WatertightChecker {
   OutlineBuilder builder_;
   std::vector<std::uint64_t> sample_words_;  ///< for each sample, one row with the bits of that sample set
   std::vector<std::uint64_t> drawn_;         ///< those that the scissor leaves
-  std::vector<std::uint64_t> crossings_;     ///< packed, of one sample's rows: see scan_edge
-  std::vector<std::uint64_t> inside_;        ///< winding number 1; says nothing where outline_ is set
-  std::vector<std::uint64_t> outline_;       ///< exactly on the outline
-  std::vector<std::uint64_t> once_;          ///< covered by one triangle or more
-  std::vector<std::uint64_t> twice_;         ///< covered by two triangles or more
+  std::vector<Crossing> crossings_;          ///< of one sample's rows
+  std::vector<Crossing> sorted_;
+  std::vector<std::size_t> row_places_;
+  std::vector<std::uint64_t> inside_;   ///< winding number 1; says nothing where outline_ is set
+  std::vector<std::uint64_t> outline_;  ///< exactly on the outline
+  std::vector<std::uint64_t> once_;     ///< covered by one triangle or more
+  std::vector<std::uint64_t> twice_;    ///< covered by two triangles or more
 };
 
 }  // namespace edgecase::conformance

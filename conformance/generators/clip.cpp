@@ -1,5 +1,6 @@
 // Positions in clip space. Every operation here is one rounding of binary32, so that they are the same everywhere.
 #include <cmath>
+#include <utility>
 
 #include "conformance/generators/families.h"
 
@@ -62,6 +63,31 @@ void clip(const Lattice&, Random& random, Scene& scene) {
     p.y = ratio(random, reach) * p.w;
     p.z = in_depth ? (ratio(random, 1.5F) + 0.5F) * p.w : 0.5F * p.w;
     if (kind == W::either_sign && random.one_in(3)) p.w = -p.w;
+  }
+  scene.clip->triangles.push_back(triangle);
+}
+
+// As far_corner, for a viewport that ends within the target's first 64 pixels: one vertex far to the left and above,
+// one about the viewport's lower right corner, one on the same row or column as either. Most are cut at the viewport's
+// sides.
+void clip_far(const Lattice&, Random& random, Scene& scene) {
+  const W kind = random.one_in(2) ? W::one : W::positive;
+  const float reach = std::ldexp(1.25F, 1 - static_cast<int>(random.between(0, 2)));
+  const auto far = [&] { return 1 - std::fabs(ratio(random, reach)); };
+  const auto near = [&] { return 1 + ratio(random, 0x1p-7F); };
+  const float left = far();
+  const float right = near();
+  const float top = far();
+  const float bottom = near();
+  const bool beside = random.one_in(2);
+  ClipTriangle triangle{ClipPosition{left, top}, ClipPosition{right, bottom},
+                        ClipPosition{beside ? right : left, beside ? top : bottom}};
+  if (random.one_in(2)) std::swap(triangle[0], triangle[1]);
+  for (ClipPosition& p : triangle) {
+    p.w = homogeneous(random, kind);
+    p.x *= p.w;
+    p.y *= p.w;
+    p.z = 0.5F * p.w;
   }
   scene.clip->triangles.push_back(triangle);
 }

@@ -10,8 +10,14 @@ namespace {
 constexpr std::string_view kSampleTies = "triangles on the lattice of the sample locations, and slivers through them";
 constexpr std::string_view kFarCorner =
     "triangles that end within 64 px, or just beyond, and reach thousands of pixels to the left and above";
+constexpr std::string_view kStraddle =
+    "boxes of 4, 8, 16, 32, 64 and 128 px, up to a pixel more or less, on their grids";
+constexpr std::string_view kNeedle =
+    "needles 16,000 px long, a subpixel or two wide, within a subpixel of the centres of a whole row or column";
 constexpr std::string_view kInside =
     "triangles in clip space that stay inside this viewport, ties of the snap among them";
+constexpr std::string_view kClippedFar =
+    "triangles in clip space of a viewport that reaches thousands of pixels to the left and above";
 constexpr std::string_view kClippedFan = "closed fans in clip space across one or more planes, w = 1 or varying";
 constexpr std::string_view kClippedGrid =
     "grids in clip space across one or more planes, w = 1 or varying (NVlabs/nvdiffrast#225: cracks)";
@@ -32,8 +38,8 @@ Setting culled(CullMode cull, FrontFace front) {
   return setting;
 }
 
-Setting sized(const Extent& target) {
-  Setting setting;
+Setting sized(const Extent& target, int samples = 1) {
+  Setting setting = multisampled(samples);
   setting.target = target;
   return setting;
 }
@@ -115,6 +121,26 @@ std::span<const Generator> generators() {
                 "coordinates half way between two grid points, and the least that binary32 can tell beside",
                 {},
                 families::float_ties},
+      Generator{"far_rectangle", "hard",
+                "rectangles of two triangles, thousands of pixels large, of which only the lower right corner is seen",
+                sized({30, 23}), families::far_rectangle},
+      Generator{"straddle_wide", "hard", kStraddle, sized({144, 24}), families::straddle},
+      Generator{"straddle_tall", "hard", kStraddle, sized({24, 144}), families::straddle},
+      Generator{"needle_row", "hard", kNeedle, sized({2048, 2}), families::needle},
+      Generator{"needle_column", "hard", kNeedle, sized({2, 2048}), families::needle},
+      Generator{"spokes", "hard", "closed fans of 1,000 to 4,096 spokes", {}, families::spokes},
+      Generator{"range_ends",
+                "hard",
+                "coordinates at both ends of 16 integer bits, and near the target",
+                {},
+                families::range_ends},
+      Generator{"viewport_ends",
+                "hard",
+                "the same at -8,192 and 8,192 px, between which a viewport of 16,384 px lies",
+                {},
+                families::viewport_ends},
+      Generator{"border16", "hard", "triangles that end at a sample on or next to its pixel's border",
+                sized({8, 8}, 16), families::border_samples},
   };
   return all;
 }
@@ -154,6 +180,9 @@ std::span<const Generator> clip_generators() {
       Generator{"clip_fractional", "clip", kClipped, {}, families::clip, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
       Generator{"clip_flipped", "clip", kClipped, {}, families::clip, Viewport{3.3F, 30.1F, 27.3F, -37.7F}},
       Generator{"clip_larger", "clip", kClipped, {}, families::clip, Viewport{-40, -30, 100, 75}},
+      Generator{"clip_far", "clip", kClippedFar, {}, families::clip_far, Viewport{-7950, -6960, 8000, 7000}},
+      Generator{"clip_far_samples4", "clip", kClippedFar, multisampled(4), families::clip_far,
+                Viewport{-7940.5F, -6960.25F, 8000.25F, 7000.75F}},
       Generator{"clip_samples4", "clip", kClipped, multisampled(4), families::clip,
                 Viewport{2.5005F, 1.5015F, 20.25F, 26.75F}},
   };

@@ -17,7 +17,8 @@
 //      bits.
 //   4. The sides of the scissor that the triangle crosses are edges, too.
 //
-// So samples deep inside are lost, most often all that there are, and blocks far outside may be filled.
+// So samples deep inside are lost, most often all that there are, and blocks far outside may be filled. A block of 4x4
+// pixels that is filled across the target's border is shaded there, too: shaders must not count those fragments.
 #pragma once
 
 #include "conformance/scene/mask.h"

@@ -28,15 +28,15 @@ bool culled(const Setting& setting, Turn turn) {
   return faces_front == (setting.cull == CullMode::front);
 }
 
-// One word of a mask: the samples that parts `from` to `to` - 1 add more often than they take them away.
-std::uint64_t outlined(const WindowScene& window, const MaskBatch& parts, std::size_t from, std::size_t to,
+// One word of a mask: the samples that the parts of triangle `i` add more often than they take them away.
+std::uint64_t outlined(const WindowScene& window, std::size_t i, const MaskBatch& parts, std::size_t from,
                        std::size_t word) {
   std::uint64_t result = 0;
   for (int bit = 0; bit < 64; ++bit) {
     int times = 0;
-    for (std::size_t part = from; part < to; ++part) {
-      const int inside = static_cast<int>(parts[part][word] >> bit & 1);
-      times += window.takes_away[part] ? -inside : inside;
+    for (std::size_t part = 0; part < window.parts_of(i); ++part) {
+      const int inside = static_cast<int>(parts[from + part][word] >> bit & 1);
+      times += window.takes_away[window.first[i] + part] ? -inside : inside;
     }
     if (times > 0) result |= std::uint64_t{1} << bit;
   }
@@ -77,14 +77,6 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene) {
   return result;
 }
 
-MaskBatch ClippedView::masks(const MaskBatch& whole) const {
-  MaskBatch result;
-  result.reset(MaskLayout(scene.setting), scene.triangles.size());
-  std::ranges::fill(result.data(), 0);
-  for (std::size_t i = 0; i < bearers.size(); ++i) std::ranges::copy(whole[first + i], result[bearers[i]].begin());
-  return result;
-}
-
 ClippedView clipped_view(const WindowScene& window, std::size_t first, std::size_t count) {
   ClippedView result{Scene{window.scene.setting, window.scene.rules, {}, {}}, first, {}};
   std::vector<Triangle>& triangles = result.scene.triangles;
@@ -99,20 +91,21 @@ ClippedView clipped_view(const WindowScene& window, std::size_t first, std::size
 
 void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole) {
   whole.reset(MaskLayout(window.scene.setting), window.size());
-  std::ranges::fill(whole.data(), 0);
-  for (std::size_t i = 0; i < window.size(); ++i) {
-    const std::size_t from = window.first[i];
-    const std::size_t to = window.first[i + 1];
-    bool some_take_away = false;
-    for (std::size_t part = from; part < to; ++part) {
-      std::ranges::transform(whole[i], parts[part], whole[i].begin(), std::bit_or<>());
-      some_take_away = some_take_away || window.takes_away[part];
-    }
-    for (std::size_t word = 0; some_take_away && word < whole[i].size(); ++word) {
-      if (whole[i][word] != 0) whole[i][word] = outlined(window, parts, from, to, word);
-    }
-    window.region.filter(whole[i]);
+  for (std::size_t i = 0; i < window.size(); ++i) unite_parts(window, i, parts, window.first[i], whole[i]);
+}
+
+void unite_parts(const WindowScene& window, std::size_t i, const MaskBatch& parts, std::size_t from,
+                 MutableMaskView whole) {
+  std::ranges::fill(whole, 0);
+  bool some_take_away = false;
+  for (std::size_t part = 0; part < window.parts_of(i); ++part) {
+    std::ranges::transform(whole, parts[from + part], whole.begin(), std::bit_or<>());
+    some_take_away = some_take_away || window.takes_away[window.first[i] + part];
   }
+  for (std::size_t word = 0; some_take_away && word < whole.size(); ++word) {
+    if (whole[word] != 0) whole[word] = outlined(window, i, parts, from, word);
+  }
+  window.region.filter(whole);
 }
 
 }  // namespace edgecase::conformance

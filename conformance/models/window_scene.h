@@ -1,6 +1,7 @@
 // A scene as one driver's transform leaves it: what an exact rasterizer has to cover to predict that driver.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct WindowScene {
   DrawnRegion region;
 
   std::size_t size() const { return first.size() - 1; }
+  std::size_t parts_of(std::size_t triangle) const { return first[triangle + 1] - first[triangle]; }
 };
 
 /// Clips and projects `scene.clip`, or else snaps `scene.triangles` (which reach the driver unchanged, as through an
@@ -37,12 +39,23 @@ struct ClippedView {
   std::size_t first = 0;             ///< the scene's triangle that `bearers` begins with
   std::vector<std::size_t> bearers;  ///< of each triangle, in `scene`
 
-  /// Mask i of `whole` is that of the scene's triangle i.
-  MaskBatch masks(const MaskBatch& whole) const;
+  /// Mask i of `whole`, a MaskBatch or a view of one, is that of the scene's triangle i.
+  template <class Masks>
+  MaskBatch masks(const Masks& whole) const {
+    MaskBatch result;
+    result.reset(MaskLayout(scene.setting), scene.triangles.size());
+    std::ranges::fill(result.data(), 0);
+    for (std::size_t i = 0; i < bearers.size(); ++i) std::ranges::copy(whole[first + i], result[bearers[i]].begin());
+    return result;
+  }
 };
 ClippedView clipped_view(const WindowScene& window, std::size_t first, std::size_t count);
 
 /// `parts` are the masks of `window.scene`; mask i of `whole` becomes what the driver covers of triangle i.
 void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole);
+
+/// The same for triangle i alone: its parts are the masks of `parts` from `from` on. Writes every word of `whole`.
+void unite_parts(const WindowScene& window, std::size_t i, const MaskBatch& parts, std::size_t from,
+                 MutableMaskView whole);
 
 }  // namespace edgecase::conformance

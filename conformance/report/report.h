@@ -52,7 +52,7 @@ struct Shown {
 struct Result {
   std::string subject;   ///< its name on the command line
   std::string device;    ///< as the subject itself reports it; may be empty
-  std::string snap;      ///< how it snaps vertices to its grid; may be empty
+  std::string snap;      ///< how it transforms and snaps vertices; may be empty
   std::string testcase;  ///< a case file or a generator
   /// What the test case is about. Results of one subject and category share a line of the table.
   std::string category;

@@ -70,7 +70,7 @@ struct ShowOptions {
 int list_command(const DataFiles& data, const std::string& what);
 int run_command(const DataFiles& data, const RunOptions& options);
 int exhaust_command(const DataFiles& data, const ExhaustOptions& options);
-int limits_command(const LimitsOptions& options);
+int limits_command(const DataFiles& data, const LimitsOptions& options);
 int stability_command(const StabilityOptions& options);
 int show_command(const DataFiles& data, const ShowOptions& options);
 

@@ -6,9 +6,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "conformance/generators/lattice.h"
 #include "conformance/generators/random.h"
+#include "conformance/runner/judge.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -21,6 +23,26 @@ std::array<LatticePoint, 2> mirrored(const Lattice& lattice, std::int64_t extent
   const LatticePoint c{centre(), centre()};
   const LatticePoint p{random.between(2 * c.x - extent, extent), random.between(2 * c.y - extent, extent)};
   return {p, {2 * c.x - p.x, 2 * c.y - p.y}};
+}
+
+// A right angle between the target's upper left and the points furthest out there; half of the time it is the largest.
+std::array<LatticePoint, 3> far_corner(const Lattice& lattice, std::int64_t extent, Random& random) {
+  const std::int64_t end = std::min(64 * lattice.pixel() + lattice.half_pixel(), extent);
+  const auto far = [&] { return random.one_in(2) ? -extent : random.between(-extent, 0); };
+  const auto near = [&] { return random.one_in(2) ? end : random.between(0, end); };
+  LatticePoint first{far(), far()};
+  (random.one_in(2) ? first.x : first.y) = -extent;
+  const LatticePoint last{near(), near()};
+  const LatticePoint above{last.x, first.y};
+  const LatticePoint left{first.x, last.y};
+  switch (random.between(0, 2)) {
+    case 0:
+      return {first, above, last};
+    case 1:
+      return {first, left, last};
+    default:
+      return {above, left, last};
+  }
 }
 
 // 32767.99609375 and 8,192: no more digits than there are.
@@ -49,6 +71,7 @@ Scene extent_scene(const Rules& rules, std::int64_t extent, std::uint64_t seed, 
     }
     const std::int64_t far = random.one_in(2) ? extent : -extent;
     (random.one_in(2) ? points[2].x : points[2].y) = far;
+    if (random.one_in(8)) points = far_corner(lattice, extent, random);
     const auto turn = static_cast<std::ptrdiff_t>(random.between(0, 2));
     std::rotate(points.begin(), points.begin() + turn, points.end());
     scene.triangles.push_back(lattice.triangle(points[0], points[1], points[2]));
@@ -69,43 +92,62 @@ tl::expected<Measured, Error> measure_scene(const Scene& scene, Subject& subject
   return measured;
 }
 
-tl::expected<Limit, Error> find_limit(Subject& subject, const Rules& rules, Reference& reference, std::uint64_t seed,
-                                      std::size_t triangles) {
+tl::expected<Limit, Error> find_limit(Subject& subject, const Rules& rules, Reference& reference,
+                                      const KnownDeviation* deviation, std::uint64_t seed, std::size_t triangles) {
   Limit limit;
   limit.grid_units = std::int64_t{1} << rules.subpixel_bits;
-  std::optional<Error> failure;
-  MaskBatch observed;
-  // Whether it is exact at `extent`; leaves in `limit` why it is not.
-  const auto exact_at = [&](std::int64_t extent) {
-    const auto measured = measure_scene(extent_scene(rules, extent, seed, triangles), subject, reference, observed);
-    if (!measured) failure = measured.error();
-    if (!measured || measured->refused || !measured->comparison.all_right()) {
-      limit.refused = measured ? measured->refused : std::nullopt;
-      return false;
+  Judge judge(subject, reference, deviation);
+  // The largest extent from `good` on, which is so itself or is 0, at which `fits` says so of the outcome; why the next
+  // larger one is refused is left in `limit`.
+  const auto largest = [&](std::int64_t good, auto&& fits) -> tl::expected<std::int64_t, Error> {
+    std::optional<Error> failure;
+    const auto fits_at = [&](std::int64_t extent) {
+      const Batch batch{extent_scene(rules, extent, seed, triangles), {}, {}};
+      limit.refused = judge.refusal(batch.scene);
+      if (limit.refused) return false;
+      Outcome outcome;
+      if (auto judged = judge.judge(batch, 0, outcome); !judged) failure = judged.error();
+      return !failure && fits(outcome);
+    };
+    const std::int64_t most = kLargestExtent * limit.grid_units;
+    std::int64_t bad = std::max(2 * good, limit.grid_units);
+    while (fits_at(bad)) {
+      if (bad == most) return most;
+      good = std::exchange(bad, std::min(2 * bad, most));
     }
-    limit.exact = extent;
-    return true;
+    while (!failure && good != 0 && bad - good > 1) {
+      const std::int64_t middle = good + (bad - good) / 2;
+      std::optional<std::string> refused_at_bad = limit.refused;
+      if (fits_at(middle)) {
+        good = middle;
+        limit.refused = std::move(refused_at_bad);
+      } else {
+        bad = middle;
+      }
+    }
+    if (failure) return tl::unexpected(*failure);
+    return good;
   };
-  std::int64_t bad = limit.grid_units;
-  while (exact_at(bad) && bad < kLargestExtent * limit.grid_units) bad *= 2;
-  while (!failure && limit.exact != 0 && bad - limit.exact > 1) {
-    const std::int64_t middle = limit.exact + (bad - limit.exact) / 2;
-    const std::optional<std::string> refused_at_bad = limit.refused;
-    if (exact_at(middle)) {
-      limit.refused = refused_at_bad;
-    } else {
-      bad = middle;
-    }
-  }
-  if (failure) return tl::unexpected(*failure);
+  const auto exact = largest(0, [](const Outcome& outcome) { return outcome.triangles.all_right(); });
+  if (!exact) return tl::unexpected(exact.error());
+  limit.exact = limit.explained = *exact;
+  if (deviation == nullptr || limit.refused) return limit;
+  const auto explained = largest(*exact, [](const Outcome& outcome) { return outcome.unexplained == 0; });
+  if (!explained) return tl::unexpected(explained.error());
+  limit.explained = *explained;
   return limit;
 }
 
 std::string describe_limit(const Limit& limit) {
-  if (limit.exact == 0)
-    return limit.refused ? fmt::format("not accepted at ±1 px: {}", *limit.refused) : "wrong at ±1 px already";
-  const bool everything = limit.exact == kLargestExtent * limit.grid_units;
-  return fmt::format("exact to ±{} px; beyond: {}", with_thousands(limit.pixels()),
+  if (limit.explained == 0 && limit.refused) return fmt::format("not accepted at ±1 px: {}", *limit.refused);
+  std::string text =
+      limit.exact == 0 ? "wrong at ±1 px already" : fmt::format("exact to ±{} px", with_thousands(limit.pixels()));
+  if (limit.explained == 0) return text;
+  if (limit.explained > limit.exact) {
+    text += fmt::format(", as its known deviation predicts to ±{} px", with_thousands(limit.explained_pixels()));
+  }
+  const bool everything = limit.explained == kLargestExtent * limit.grid_units;
+  return fmt::format("{}; beyond: {}", text,
                      limit.refused ? "not accepted"
                      : everything  ? "not tried"
                                    : "wrong samples");

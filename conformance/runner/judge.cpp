@@ -12,14 +12,10 @@ namespace {
 
 constexpr std::size_t kFindingsOfAKind = 3;
 
-std::span<const std::uint64_t> words_of(const MaskBatch& masks, std::size_t first, std::size_t count) {
-  const std::size_t words = masks[0].size();
-  return masks.data().subspan(first * words, count * words);
-}
-
-void copy_masks(const MaskLayout& layout, const MaskBatch& from, std::size_t first, std::size_t count, MaskBatch& to) {
+void copy_masks(const MaskLayout& layout, const MaskBatchView& from, std::size_t first, std::size_t count,
+                MaskBatch& to) {
   to.reset(layout, count);
-  std::ranges::copy(words_of(from, first, count), to.data().begin());
+  std::ranges::copy(from.data(first, count), to.data().begin());
 }
 
 Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView expected, MaskView observed,
@@ -36,12 +32,14 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 std::optional<std::string> Judge::refusal(const Scene& scene) const {
   if (auto refused = subject_.refusal(scene)) return refused;
-  if (!reference_.judges(scene)) return "no model of its clipper and transform is known";
+  if (!reference_.judges(scene)) return reference_.unjudged();
   return std::nullopt;
 }
 
 tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
-  if (auto drawn = subject_.draw(batch.scene, observed_); !drawn) return drawn;
+  const auto drawn = subject_.draw_in_place(batch.scene, scratch_);
+  if (!drawn) return tl::unexpected(drawn.error());
+  observed_ = *drawn;
   if (auto known = reference_.expect(batch.scene, first_triangle, expected_); !known) return known;
 
   // What nobody predicts is not compared, and not counted as compared.
@@ -67,8 +65,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
 tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
-    const bool concerned = deviation_ != nullptr && !batch.scene.clip &&
-                           deviation_->may_concern(batch.scene.setting, batch.scene.triangles[i]);
+    const bool concerned = may_deviate(batch.scene, i);
     if (all_right && !concerned) continue;
     const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
@@ -97,31 +94,42 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
 void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   if (batch.scene.meshes.empty()) return;
   if (batch.scene.clip) return judge_clip_meshes(batch, first_triangle, outcome);
-  const double scale = std::ldexp(1.0, batch.scene.rules.subpixel_bits);
+  const float scale = std::ldexp(1.0f, batch.scene.rules.subpixel_bits);
   WatertightChecker checker(batch.scene.setting, batch.scene.rules.subpixel_bits);
+  const bool snapped_already = all_on_grid(batch.scene.triangles, scale);
   for (const Mesh& mesh : batch.scene.meshes) {
-    snapped_.clear();
-    for (std::size_t i = mesh.first; i < mesh.first + mesh.count; ++i) {
-      const Triangle& t = batch.scene.triangles[i];
-      const auto grid_point = [&](const Position& p) {
-        const auto point = on_grid(p, scale);
-        return point ? *point : oracle::snap(batch.scene.rules, p);
-      };
-      snapped_.push_back({grid_point(t[0]), grid_point(t[1]), grid_point(t[2])});
+    snapped_.resize(std::max(snapped_.size(), mesh.count));
+    for (std::size_t i = 0; i < mesh.count; ++i) {
+      for (std::size_t v = 0; v < 3; ++v) {
+        const Position& p = batch.scene.triangles[mesh.first + i][v];
+        snapped_[i][v] = snapped_already ? grid_point(p, scale) : oracle::snap(batch.scene.rules, p);
+      }
     }
     Watertightness found;
-    checker.check(snapped_, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);
+    checker.check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
+                  first_triangle + mesh.first, found);
     outcome.meshes.add(found);
     for (const auto& torn : {found.first_missing, found.first_doubled}) {
       if (!torn) continue;
       WrongSample wrong = *torn;
       wrong.triangle -= first_triangle;
       bool known = deviation_ != nullptr;
-      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) known = as_predicted(batch, i);
+      for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) {
+        known = may_deviate(batch.scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected_[i], observed_[i]);
+      }
       if (!known) ++outcome.unexplained;
       add_finding(batch, mesh.first, mesh.count, wrong, known, outcome);
     }
   }
+}
+
+bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
+  if (deviation_ == nullptr) return false;
+  if (!scene.clip) return deviation_->may_concern(scene.setting, scene.triangles[triangle]);
+  const WindowScene& window = reference_.window();
+  const auto parts = std::span(window.scene.triangles).subspan(window.first[triangle], window.parts_of(triangle));
+  return std::ranges::any_of(parts,
+                             [&](const Triangle& part) { return deviation_->may_concern(window.scene.setting, part); });
 }
 
 // Cracks are no fault by themselves: masks that are as the model of the clipper predicts are judged already. Only where
@@ -136,7 +144,7 @@ void Judge::judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Ou
                                           reference_.near_plane(), triangles, inside);
     if (!bounded) continue;
     Cracks found;
-    count_cracks(setting, inside, words_of(observed_, mesh.first, mesh.count), first_triangle + mesh.first, found);
+    count_cracks(setting, inside, observed_.data(mesh.first, mesh.count), first_triangle + mesh.first, found);
     outcome.cracks.add(found);
     if (!found.first) continue;
     const bool predicted = std::ranges::none_of(
@@ -148,7 +156,11 @@ void Judge::judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Ou
 
 bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   predicted_.resize(observed_[triangle].size());
-  deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  if (batch.scene.clip) {
+    predict_clipped(triangle);
+  } else {
+    deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+  }
   return std::ranges::equal(predicted_, observed_[triangle]);
 }
 
@@ -157,6 +169,23 @@ void Judge::show_clipped(std::size_t first, std::size_t count, Finding& finding)
   finding.window = clipped.scene;
   finding.expected = clipped.masks(expected_);
   finding.observed = clipped.masks(observed_);
+}
+
+// What the deviation makes of the triangles that clipping left, where it concerns them, and the rules where it does
+// not.
+void Judge::predict_clipped(std::size_t triangle) {
+  const WindowScene& window = reference_.window();
+  const std::size_t first = window.first[triangle];
+  parts_.reset(MaskLayout(window.scene.setting), window.parts_of(triangle));
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Triangle& part = window.scene.triangles[first + i];
+    if (deviation_->may_concern(window.scene.setting, part)) {
+      deviation_->predict(window.scene.setting, part, parts_[i]);
+    } else {
+      std::ranges::copy(reference_.part(first + i), parts_[i].begin());
+    }
+  }
+  unite_parts(window, triangle, parts_, 0, predicted_);
 }
 
 // What is expected of a torn mesh is what was observed, but with each sample inside covered once.

@@ -79,12 +79,15 @@ class Judge {
  private:
   tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
   void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  /// Whether the known deviation may concern that triangle of the scene last given to the reference.
+  bool may_deviate(const Scene& scene, std::size_t triangle) const;
   void judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);
   void add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                    Outcome& outcome) const;
 
+  void predict_clipped(std::size_t triangle);
   void show_clipped(std::size_t first, std::size_t count, Finding& finding) const;
   /// The generator's scene number of that triangle of the batch.
   static std::uint64_t part_of(const Batch& batch, std::size_t triangle);
@@ -96,8 +99,10 @@ class Judge {
   Reference& reference_;
   const KnownDeviation* deviation_;
   MaskBatch expected_;
-  MaskBatch observed_;
+  MaskBatchView observed_;  ///< where the subject has them, or in scratch_
+  MaskBatch scratch_;
   std::vector<std::uint64_t> predicted_;
+  MaskBatch parts_;
   std::vector<GridTriangle> snapped_;
 };
 

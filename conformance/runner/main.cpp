@@ -168,7 +168,7 @@ int dispatch(int argc, char** argv) {
   if (*list) return list_command(data, list_what);
   if (app.got_subcommand("bench")) return bench_command(bench_options);
   if (app.got_subcommand("exhaust")) return exhaust_command(data, exhaust_options);
-  if (app.got_subcommand("limits")) return limits_command(limits_options);
+  if (app.got_subcommand("limits")) return limits_command(data, limits_options);
   if (app.got_subcommand("stability")) return stability_command(stability_options);
   if (app.got_subcommand("show")) return show_command(data, show_options);
   return run_command(data, run_options);

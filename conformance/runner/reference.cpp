@@ -28,7 +28,7 @@ Position snapped(const Rules& rules, const Position& position) {
 tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must) {
   window_.reset();
   if (!scene.clip) return expect_window(scene, first_index, must);
-  window_.emplace(window_scene(model_ != nullptr ? *model_ : exact_model(scene.rules), scene));
+  window_.emplace(window_scene(model_ ? *model_ : exact_model(scene.rules), scene));
   if (auto parts = expect_window(window_->scene, first_index, parts_); !parts) return parts;
   must.reset(MaskLayout(scene.setting), triangle_count(scene));
   unite(*window_, parts_, must);
@@ -59,13 +59,11 @@ tl::expected<void, Error> Reference::expect_window(const Scene& scene, std::uint
 void Reference::snap_all(const Scene& scene) {
   snapped_.setting = scene.setting;
   snapped_.rules = Rules{scene.rules.subpixel_bits};
-  snapped_.triangles.resize(scene.triangles.size());
-  const double scale = std::ldexp(1.0, scene.rules.subpixel_bits);
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    for (std::size_t v = 0; v < 3; ++v) {
-      const Position& position = scene.triangles[i][v];
-      snapped_.triangles[i][v] = on_grid(position, scale) ? position : snapped(scene.rules, position);
-    }
+  snapped_.triangles = scene.triangles;
+  const float scale = std::ldexp(1.0f, scene.rules.subpixel_bits);
+  if (all_on_grid(scene.triangles, scale)) return;
+  for (Triangle& triangle : snapped_.triangles) {
+    for (Position& position : triangle) position = snapped(scene.rules, position);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -24,13 +25,14 @@ inline constexpr std::uint64_t kOracleShare = 256;
 class Reference {
  public:
   /// `fast` answers in bulk, and the oracles judge it; without it the oracle by definition answers for every triangle.
-  /// `model` says what the subject's clipper and transform do, and may be null: then clip space is judged only where it
-  /// has exact_window_triangles.
-  explicit Reference(std::unique_ptr<Subject> fast, const TransformModel* model = nullptr)
-      : fast_(std::move(fast)), model_(model) {}
+  /// `model` says what the subject's clipper and transform do; without it clip space is judged only where it has
+  /// exact_window_triangles, and `unjudged` says why.
+  explicit Reference(std::unique_ptr<Subject> fast, std::optional<TransformModel> model = {}, std::string unjudged = {})
+      : fast_(std::move(fast)), model_(std::move(model)), unjudged_(std::move(unjudged)) {}
 
   /// Whether expect() can say something about `scene`.
-  bool judges(const Scene& scene) const { return !scene.clip || model_ != nullptr || exact_window_triangles(scene); }
+  bool judges(const Scene& scene) const { return !scene.clip || model_ || exact_window_triangles(scene); }
+  const std::string& unjudged() const { return unjudged_; }
 
   /// Fills `must` with one mask per triangle of `scene`. `first_index` counts on through a run and picks the share that
   /// the oracles check. Of triangles in clip space, it is what the model predicts. An error is a fault of ours: two of
@@ -39,7 +41,7 @@ class Reference {
 
   /// Where the subject's near plane lies, as far as that is known.
   NearPlane near_plane() const {
-    return model_ != nullptr && model_->depth == DepthRange::minus_w_to_w ? NearPlane::minus_w : NearPlane::zero;
+    return model_ && model_->depth == DepthRange::minus_w_to_w ? NearPlane::minus_w : NearPlane::zero;
   }
 
   /// The triangles of the last scene for which the model does not reach far enough; their masks mean nothing.
@@ -49,6 +51,8 @@ class Reference {
 
   /// The last scene, which was in clip space, as the model has it in the window: what an exact rasterizer has to cover.
   const WindowScene& window() const { return *window_; }
+  /// What the rules cover of triangle `index` of its scene.
+  MaskView part(std::size_t index) const { return parts_[index]; }
 
   /// Gives triangle `index` of `scene`, the last one given to expect(), to both oracles, or in clip space all that the
   /// model makes of it; an error if one of them differs from `must`.
@@ -64,7 +68,8 @@ class Reference {
   void snap_all(const Scene& scene);
 
   std::unique_ptr<Subject> fast_;
-  const TransformModel* model_;
+  std::optional<TransformModel> model_;
+  std::string unjudged_;
   std::optional<WindowScene> window_;
   MaskBatch parts_;
   Scene snapped_;

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "conformance/runner/metamorphic_trial.h"
-#include "conformance/runner/snap_probe.h"
 #include "conformance/subjects/registry.h"
 
 namespace edgecase::conformance {
@@ -16,50 +15,53 @@ namespace {
 // Our own rasterizer is judged by the oracle, on every triangle; it stands in for the oracle against everybody else.
 bool is_ours(const std::string& subject) { return subject == "edgecase" || subject.starts_with("edgecase:"); }
 
-// Ours snap as the scene asks or as they claim, and a model that replaces the rules needs none; drivers are found out.
-tl::expected<Rules, Error> rules_of(Subject& subject, const KnownDeviation* deviation) {
-  if (subject.info().device.empty() || (deviation != nullptr && deviation->replaces_rules())) {
-    return subject.info().rules;
-  }
-  return find_snap(subject);
-}
-
 // What one thread holds to test one subject. Subjects are not shared between threads.
 struct Bench {
   std::unique_ptr<Subject> subject;
-  Rules rules;  ///< what the subject is judged by
   Reference reference;
   Judge judge;
 
-  Bench(std::unique_ptr<Subject> s, const Rules& snap, Reference r, const KnownDeviation* deviation)
-      : subject(std::move(s)), rules(snap), reference(std::move(r)), judge(*subject, reference, deviation) {}
+  Bench(std::unique_ptr<Subject> s, Reference r, const KnownDeviation* deviation)
+      : subject(std::move(s)), reference(std::move(r)), judge(*subject, reference, deviation) {}
 };
+
+bool in_clip_space(const Testcase& testcase) {
+  if (testcase.file != nullptr) return testcase.file->scene.clip.has_value();
+  return testcase.generator != nullptr && testcase.generator->viewport.has_value();
+}
+
+using SubjectModels = std::map<std::string, SubjectModel>;
 
 class Benches {
  public:
-  explicit Benches(const RunPlan& plan) : plan_(plan) {}
+  Benches(const RunPlan& plan, const SubjectModels& models) : plan_(plan), models_(models) {}
 
+  // Every subject has its model before the first call.
   tl::expected<Bench*, Error> get(const std::string& name) {
     auto& bench = benches_[name];
-    if (!bench) {
-      auto subject = make_subject(name);
-      if (!subject) return tl::unexpected(subject.error());
-      auto reference = reference_for(name, (*subject)->info().device);
-      if (!reference) return tl::unexpected(reference.error());
-      const KnownDeviation* deviation = find_known_deviation(plan_.known_deviations, name, (*subject)->info().device);
-      auto rules = rules_of(**subject, deviation);
-      if (!rules) return tl::unexpected(rules.error());
-      bench = std::make_unique<Bench>(std::move(*subject), *rules, std::move(*reference), deviation);
-    }
+    if (bench) return bench.get();
+    auto subject = make_subject(name);
+    if (!subject) return tl::unexpected(subject.error());
+    return add(name, std::move(*subject));
+  }
+
+  tl::expected<Bench*, Error> add(const std::string& name, std::unique_ptr<Subject> subject) {
+    auto reference = reference_for(name, &models_.at(name));
+    if (!reference) return tl::unexpected(reference.error());
+    const std::string device = subject->info().device;
+    auto& bench = benches_[name];
+    bench = std::make_unique<Bench>(std::move(subject), std::move(*reference),
+                                    find_known_deviation(plan_.known_deviations, name, device));
     return bench.get();
   }
 
  private:
   const RunPlan& plan_;
+  const SubjectModels& models_;
   std::map<std::string, std::unique_ptr<Bench>> benches_;
 };
 
-void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
+void run_one(const RunPlan& plan, const SubjectModel& model, Benches& benches, RunResult& result,
              const std::function<void(std::uint64_t)>& on_progress) {
   const auto bench = benches.get(result.subject);
   if (!bench) {
@@ -68,17 +70,19 @@ void run_one(const RunPlan& plan, Benches& benches, RunResult& result,
   }
   Subject& subject = *(*bench)->subject;
   result.device = subject.info().device;
-  result.snap = describe_snap((*bench)->rules);
-  if (result.testcase.file != nullptr) {
-    result.trial = try_case(*result.testcase.file, subject, (*bench)->rules, (*bench)->judge);
-    on_progress(triangle_count(result.testcase.file->scene));
-  } else if (result.testcase.metamorphosis != nullptr) {
-    result.trial = try_metamorphosis(*result.testcase.metamorphosis, subject, (*bench)->rules,
+  result.snap = model.description();
+  const Testcase& testcase = result.testcase;
+  if (testcase.file != nullptr) {
+    const Scene& scene = testcase.file->scene;
+    result.trial = try_case(*testcase.file, subject, model.rules(scene.setting.samples()), (*bench)->judge);
+    on_progress(triangle_count(scene));
+  } else if (testcase.metamorphosis != nullptr) {
+    result.trial = try_metamorphosis(*testcase.metamorphosis, subject, model.rules(1),
                                      find_known_deviation(plan.known_deviations, result.subject, result.device),
                                      {plan.count, plan.seed, on_progress});
   } else {
-    result.trial = try_generator(*result.testcase.generator, subject, (*bench)->rules, (*bench)->judge,
-                                 {plan.count, plan.seed, on_progress});
+    result.trial = try_generator(*testcase.generator, subject, model.rules(testcase.generator->setting.samples()),
+                                 (*bench)->judge, {plan.count, plan.seed, on_progress});
   }
 }
 
@@ -89,11 +93,13 @@ const std::vector<std::string>& default_subjects() {
   return names;
 }
 
-tl::expected<Reference, Error> reference_for(const std::string& subject, const std::string& device) {
+tl::expected<Reference, Error> reference_for(const std::string& subject, const SubjectModel* model) {
   if (is_ours(subject)) return Reference(nullptr);
   auto fast = make_subject("edgecase");
   if (!fast) return tl::unexpected(fast.error());
-  return Reference(std::move(*fast), find_transform_model(subject, device));
+  if (model == nullptr) return Reference(std::move(*fast));
+  const TransformModel* clipper = model->clipper();
+  return Reference(std::move(*fast), clipper != nullptr ? std::optional(*clipper) : std::nullopt, model->unjudged());
 }
 
 std::uint64_t planned_triangles(const RunPlan& plan) {
@@ -104,10 +110,19 @@ std::uint64_t planned_triangles(const RunPlan& plan) {
 
 tl::expected<std::vector<RunResult>, Error> run(const RunPlan& plan,
                                                 const std::function<void(std::uint64_t)>& on_progress) {
-  // The first thread's subjects are made at once: one that cannot be had ends the run before it begins.
-  Benches first(plan);
-  for (const std::string& subject : plan.subjects) {
-    if (auto bench = first.get(subject); !bench) return tl::unexpected(bench.error());
+  // The first thread's subjects are made, and found out, at once: one that cannot be had ends the run before it begins.
+  SubjectModels models;
+  Benches first(plan, models);
+  const bool clip_space = std::ranges::any_of(plan.testcases, in_clip_space);
+  for (const std::string& name : plan.subjects) {
+    auto subject = make_subject(name);
+    if (!subject) return tl::unexpected(subject.error());
+    const KnownDeviation* deviation = find_known_deviation(plan.known_deviations, name, (*subject)->info().device);
+    const bool predicted = deviation != nullptr && deviation->replaces_rules();
+    auto model = predicted ? SubjectModel::declared(**subject) : SubjectModel::find(**subject, clip_space);
+    if (!model) return tl::unexpected(model.error());
+    models.emplace(name, std::move(*model));
+    if (auto bench = first.add(name, std::move(*subject)); !bench) return tl::unexpected(bench.error());
   }
 
   std::vector<RunResult> results;
@@ -122,12 +137,14 @@ tl::expected<std::vector<RunResult>, Error> run(const RunPlan& plan,
   };
   std::atomic<std::size_t> next = 0;
   const auto work = [&](Benches& benches) {
-    for (std::size_t i = next++; i < results.size(); i = next++) run_one(plan, benches, results[i], guarded_progress);
+    for (std::size_t i = next++; i < results.size(); i = next++) {
+      run_one(plan, models.at(results[i].subject), benches, results[i], guarded_progress);
+    }
   };
   std::vector<std::jthread> helpers;
   for (int i = 1; i < plan.jobs; ++i) {
     helpers.emplace_back([&] {
-      Benches benches(plan);
+      Benches benches(plan, models);
       work(benches);
     });
   }

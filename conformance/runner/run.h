@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "conformance/runner/known_deviations.h"
+#include "conformance/runner/subject_model.h"
 #include "conformance/runner/testcase.h"
 #include "conformance/scene/error.h"
 #include "conformance/subjects/subject.h"
@@ -28,7 +29,7 @@ struct RunPlan {
 struct RunResult {
   std::string subject;
   std::string device;
-  std::string snap;  ///< how the subject snaps, as found out by drawing
+  std::string snap;  ///< how the subject transforms and snaps vertices, as found out by drawing
   Testcase testcase;
   Trial trial;
 };
@@ -36,8 +37,9 @@ struct RunResult {
 /// What a run compares if nothing is named.
 const std::vector<std::string>& default_subjects();
 
-/// What a subject is held against: the oracle, if it is ours; our own, judged by the oracles, if not.
-tl::expected<Reference, Error> reference_for(const std::string& subject, const std::string& device = {});
+/// What a subject is held against: the oracle, if it is ours; our own, judged by the oracles, if not. Clip space can be
+/// judged only with a model of the subject.
+tl::expected<Reference, Error> reference_for(const std::string& subject, const SubjectModel* model = nullptr);
 
 /// Runs the plan. The results come subject by subject, testcase by testcase, whatever the number of jobs; on_progress
 /// is called from several threads, one at a time. An error is a subject that cannot be had, before anything is drawn.

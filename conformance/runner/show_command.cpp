@@ -11,7 +11,7 @@
 #include "conformance/runner/commands.h"
 #include "conformance/runner/findings.h"
 #include "conformance/runner/run.h"
-#include "conformance/runner/snap_probe.h"
+#include "conformance/runner/subject_model.h"
 #include "conformance/runner/testcase.h"
 #include "conformance/scene/window_position.h"
 #include "conformance/subjects/registry.h"
@@ -25,9 +25,10 @@ tl::expected<Exhibit, Error> with_subject(const Case& file, const std::string& n
   auto subject = make_subject(name);
   if (!subject) return tl::unexpected(subject.error());
   const SubjectInfo& info = (*subject)->info();
-  const auto rules = info.device.empty() ? file.scene.rules : find_snap(**subject);
-  const auto scene = scene_for(file, info, rules.value_or(info.rules));
-  auto reference = reference_for(name, info.device);
+  const auto model =
+      SubjectModel::find(**subject, file.scene.clip.has_value()).value_or(SubjectModel::declared(**subject));
+  const auto scene = scene_for(file, info, model.rules(file.scene.setting.samples()));
+  auto reference = reference_for(name, &model);
   if (!reference) return tl::unexpected(reference.error());
   const auto refusal = scene ? Judge(**subject, *reference, nullptr).refusal(*scene) : scene.error();
   if (refusal) {

@@ -135,7 +135,7 @@ tl::expected<Stability, Error> measure_stability(std::span<const std::string> su
       result.rows.push_back(std::move(*row));
       on_progress(count);
     }
-    auto limit = find_limit(**subject, (*subject)->info().rules, *reference, seed, kLimitTriangles);
+    auto limit = find_limit(**subject, (*subject)->info().rules, *reference, nullptr, seed, kLimitTriangles);
     if (!limit) return tl::unexpected(limit.error());
     result.limits.push_back({name, std::move(*limit)});
   }

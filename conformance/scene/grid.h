@@ -1,25 +1,39 @@
 // Positions that need no snapping, because they lie on the subpixel grid.
 #pragma once
 
+#include <bit>
 #include <cstdint>
-#include <optional>
+#include <span>
 
+#include "conformance/scene/coordinates.h"
 #include "conformance/scene/explanation.h"
 #include "conformance/scene/scene.h"
 
 namespace edgecase::conformance {
 
-/// `position` in units of 1/scale px, scale = 2^subpixel_bits, if it lies on that grid and within 2^22 units of the
-/// origin: then every way of snapping leaves it where it is, half a pixel subtracted first or not, because binary32
-/// holds all whole numbers of up to 24 bits.
-inline std::optional<GridPoint> on_grid(const Position& position, double scale) {
-  constexpr double kReach = 1 << 22;
-  const double x = static_cast<double>(position.x) * scale;  // exact: a power of two
-  const double y = static_cast<double>(position.y) * scale;
-  if (!(x >= -kReach && x <= kReach && y >= -kReach && y <= kReach)) return std::nullopt;
-  const GridPoint point{static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
-  if (static_cast<double>(point.x) != x || static_cast<double>(point.y) != y) return std::nullopt;
-  return point;
+/// Every way of snapping leaves a point of the grid within this many units of the origin where it is, half a pixel
+/// subtracted first or not, because binary32 holds all whole numbers of up to 24 bits.
+inline constexpr float kGridReach = 1 << 22;
+
+/// `position`, which lies on the grid, in units of 1/scale px, scale = 2^subpixel_bits.
+inline GridPoint grid_point(const Position& position, float scale) {
+  return {static_cast<std::int32_t>(position.x * scale), static_cast<std::int32_t>(position.y * scale)};
+}
+
+/// Whether every vertex lies on the grid within kGridReach. May say no because of a coordinate -0, which is rare.
+inline bool all_on_grid(std::span<const Triangle> triangles, float scale) {
+  constexpr auto kReach = std::bit_cast<std::uint32_t>(kGridReach);
+  std::uint32_t off_grid = 0;
+  for_each_block(triangles, [&](const CoordinateBlock& block) {
+    for (const float coordinate : block) {
+      // What is out of reach becomes 0, which is another pattern than its own.
+      const auto scaled = std::bit_cast<std::uint32_t>(coordinate * scale);
+      const std::uint32_t in_reach = (scaled & 0x7fffffff) < kReach ? ~std::uint32_t{0} : 0;
+      const auto whole = static_cast<std::int32_t>(std::bit_cast<float>(scaled & in_reach));
+      off_grid |= std::bit_cast<std::uint32_t>(static_cast<float>(whole)) ^ scaled;
+    }
+  });
+  return off_grid == 0;
 }
 
 }  // namespace edgecase::conformance

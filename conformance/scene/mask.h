@@ -11,8 +11,8 @@
 
 namespace edgecase::conformance {
 
-/// How a mask lies in memory: rows top to bottom, each padded with zero bits to whole 64-bit words; sample s of the pixel
-/// in column x is bit x * samples + s of its row, counted from the least significant bit of the row's first word.
+/// How a mask lies in memory: rows top to bottom, each padded with zero bits to whole 64-bit words; sample s of the
+/// pixel in column x is bit x * samples + s of its row, counted from the least significant bit of the row's first word.
 struct MaskLayout {
   Extent target;
   int samples = 1;
@@ -42,7 +42,26 @@ using MutableMaskView = std::span<std::uint64_t>;
 inline bool covered(MaskView mask, std::size_t bit) { return (mask[bit / 64] >> (bit % 64) & 1) != 0; }
 inline void cover(MutableMaskView mask, std::size_t bit) { mask[bit / 64] |= std::uint64_t{1} << (bit % 64); }
 
-/// Masks of equal layout, one after the other: mask i is that of triangle i.
+/// Masks of equal layout, one after the other, owned elsewhere: mask i is that of triangle i.
+class MaskBatchView {
+ public:
+  MaskBatchView() = default;
+  /// `data` holds whole masks of `words` words each.
+  MaskBatchView(std::size_t words, std::span<const std::uint64_t> data) : words_(words), data_(data) {}
+  std::size_t size() const { return words_ == 0 ? 0 : data_.size() / words_; }
+  MaskView operator[](std::size_t i) const { return data_.subspan(i * words_, words_); }
+  /// Masks `first` to `first + count - 1`.
+  std::span<const std::uint64_t> data(std::size_t first, std::size_t count) const {
+    return data_.subspan(first * words_, count * words_);
+  }
+  std::span<const std::uint64_t> data() const { return data_; }
+
+ private:
+  std::size_t words_ = 0;
+  std::span<const std::uint64_t> data_;
+};
+
+/// The same, owned.
 class MaskBatch {
  public:
   /// Resizes to `count` masks. What they hold afterwards is unspecified: writers write every word.
@@ -56,6 +75,7 @@ class MaskBatch {
   MutableMaskView operator[](std::size_t i) { return {data_.data() + i * words_, words_}; }
   std::span<std::uint64_t> data() { return data_; }
   std::span<const std::uint64_t> data() const { return data_; }
+  operator MaskBatchView() const { return {words_, data_}; }
 
  private:
   std::size_t words_ = 0;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "conformance/scene/coordinates.h"
 #include "conformance/subjects/family_subject.h"
 #include "rasterizer/fast/fast.h"
 #include "rasterizer/rasterizer.h"
@@ -27,6 +28,9 @@ using Failure = std::optional<rasterizer::InputError>;
 
 template <class F>
 Failure check_range(const Scene& scene) {
+  // In whatever format of 16 integer bits, none of these rounds to a number outside of it.
+  static_assert(kIntegerBits == 16);
+  if (magnitudes(scene.triangles).largest <= 32767) return std::nullopt;
   rasterizer::FixedTriangle<F> snapped;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
@@ -39,12 +43,6 @@ std::optional<rasterizer::SamplePattern> sample_pattern(const Setting& setting) 
   std::vector<rasterizer::SampleLocation> locations;
   for (const SampleLocation& location : setting.sample_locations) locations.push_back({location.x, location.y});
   return rasterizer::SamplePattern::make(locations);
-}
-
-/// One sample in the pixel's centre, on the whole target, and nothing culled.
-bool is_plain(const Setting& setting) {
-  return setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{} && !setting.scissor &&
-         setting.cull == CullMode::none;
 }
 
 /// Whether the setting drops the way that `triangle` faces. That of a degenerate one does not matter.
@@ -68,44 +66,70 @@ Failure draw_into(const View& view, const Scene& scene, MaskBatch& masks) {
   return std::nullopt;
 }
 
+/// Calls draw(view) with the view that asks for what `setting` asks for and no more.
+template <class Draw>
+Failure with_view(const Setting& setting, const rasterizer::Target& target, const Draw& draw) {
+  using rasterizer::CentreSample, rasterizer::SamplePattern, rasterizer::Scissor, rasterizer::View;
+  const bool centre = setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{};
+  const auto samples = *sample_pattern(setting);
+  if (!setting.scissor) return centre ? draw(View<>{target}) : draw(View<SamplePattern>{target, samples});
+  const Scissor scissor{setting.scissor->x, setting.scissor->y, setting.scissor->width, setting.scissor->height};
+  return centre ? draw(View<CentreSample, Scissor>{target, {}, scissor})
+                : draw(View<SamplePattern, Scissor>{target, samples, scissor});
+}
+
 template <class F>
 Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
   std::fill(masks.data().begin(), masks.data().end(), std::uint64_t{0});
-  using rasterizer::SamplePattern, rasterizer::Scissor;
-  const Setting& setting = scene.setting;
-  if (is_plain(setting)) return draw_into<F>(rasterizer::View<>{target}, scene, masks);
-  const Rect scissor = setting.scissor.value_or(Rect{0, 0, setting.target.width, setting.target.height});
-  return draw_into<F>(
-      rasterizer::View<SamplePattern, Scissor>{
-          target, *sample_pattern(setting), {scissor.x, scissor.y, scissor.width, scissor.height}},
-      scene, masks);
+  return with_view(scene.setting, target, [&](const auto& view) { return draw_into<F>(view, scene, masks); });
 }
+
+/// The fast rasterizer, and the triangles of its last list: the memory is used again from list to list.
+struct Fast {
+  rasterizer::FastRasterizer rasterizer;
+  std::vector<rasterizer::Triangle> triangles{};
+  std::vector<rasterizer::FixedTriangle<rasterizer::Format16_8>> snapped{};
+};
 
 /// The same in vectors. Vertices on a grid coarser than that of 16.8 lie on that one, too.
 template <class F>
-Failure draw_fast(const rasterizer::FastRasterizer& fast, const Scene& scene, const rasterizer::Target& target,
-                  MaskBatch& masks) {
+Failure draw_fast(Fast& fast, const Scene& scene, const rasterizer::Target& target, MaskBatch& masks) {
   if constexpr (F::kSubpixelBits > rasterizer::Format16_8::kSubpixelBits) {
     return draw_all<F>(scene, target, masks);
   } else {
     constexpr int kFiner = rasterizer::Format16_8::kSubpixelBits - F::kSubpixelBits;
-    std::vector<rasterizer::FixedTriangle<rasterizer::Format16_8>> triangles(scene.triangles.size());
-    rasterizer::FixedTriangle<F> snapped;
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-      if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;
-      for (std::size_t v = 0; v < 3; ++v) {
-        triangles[i][v] = {snapped[v].x.template shifted_left<kFiner>(), snapped[v].y.template shifted_left<kFiner>()};
+    fast.triangles.resize(scene.triangles.size());
+    fast.snapped.resize(scene.triangles.size());
+    std::ranges::transform(scene.triangles, fast.triangles.begin(), to_rasterizer);
+    if constexpr (kFiner == 0) {
+      if (const auto error = rasterizer::snap_list<F>(fast.triangles, fast.snapped)) return error;
+    } else {
+      std::vector<rasterizer::FixedTriangle<F>> coarse(fast.triangles.size());
+      if (const auto error = rasterizer::snap_list<F>(fast.triangles, coarse)) return error;
+      for (std::size_t i = 0; i < coarse.size(); ++i) {
+        for (std::size_t v = 0; v < 3; ++v) {
+          fast.snapped[i][v] = {coarse[i][v].x.template shifted_left<kFiner>(),
+                                coarse[i][v].y.template shifted_left<kFiner>()};
+        }
       }
     }
-    fast.cover_each(triangles, target, masks.data());
-    return std::nullopt;
+    if (scene.setting.cull != CullMode::none) {
+      // Those that are culled are left without area.
+      for (auto& triangle : fast.snapped) {
+        if (is_culled<rasterizer::Format16_8>(scene.setting, triangle)) triangle = {};
+      }
+    }
+    return with_view(scene.setting, target, [&](const auto& view) -> Failure {
+      fast.rasterizer.cover_each(fast.snapped, view, masks.data());
+      return std::nullopt;
+    });
   }
 }
 
 struct FormatEntry {
   Failure (*check_range)(const Scene&);
   Failure (*draw_all)(const Scene&, const rasterizer::Target&, MaskBatch&);
-  Failure (*draw_fast)(const rasterizer::FastRasterizer&, const Scene&, const rasterizer::Target&, MaskBatch&);
+  Failure (*draw_fast)(Fast&, const Scene&, const rasterizer::Target&, MaskBatch&);
 };
 
 template <std::size_t... Bits>
@@ -120,7 +144,8 @@ constexpr auto kFormatTable = make_formats(std::make_index_sequence<kFormats>())
 
 class EdgecaseSubject : public Subject {
  public:
-  EdgecaseSubject(std::string name, std::optional<rasterizer::FastRasterizer> fast) : fast_(fast) {
+  EdgecaseSubject(std::string name, std::optional<rasterizer::FastRasterizer> fast) {
+    if (fast) fast_ = Fast{*fast};
     info_.name = std::move(name);
     info_.sample_counts.resize(rasterizer::kMaxSamples);
     std::iota(info_.sample_counts.begin(), info_.sample_counts.end(), 1);
@@ -161,8 +186,8 @@ class EdgecaseSubject : public Subject {
     const auto target = rasterizer::Target::make(scene.setting.target.width, scene.setting.target.height);
     const auto bits = static_cast<std::size_t>(scene.rules.subpixel_bits);
     const FormatEntry& format = kFormatTable[bits];
-    if (const auto error = fast_ && is_plain(scene.setting) ? format.draw_fast(*fast_, scene, *target, masks)
-                                                            : format.draw_all(scene, *target, masks)) {
+    if (const auto error =
+            fast_ ? format.draw_fast(*fast_, scene, *target, masks) : format.draw_all(scene, *target, masks)) {
       return tl::unexpected(Error{ErrorKind::subject, info_.name + ": " + rasterizer::describe(*error)});
     }
     return {};
@@ -170,7 +195,7 @@ class EdgecaseSubject : public Subject {
 
  private:
   SubjectInfo info_;
-  std::optional<rasterizer::FastRasterizer> fast_;
+  std::optional<Fast> fast_;
 };
 
 }  // namespace

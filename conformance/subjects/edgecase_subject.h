@@ -11,9 +11,8 @@ namespace edgecase::conformance {
 /// `edgecase` for the variant "", the fast path for the best instruction set of this machine; `edgecase:portable`,
 /// `edgecase:sse4`, `edgecase:avx2` and `edgecase:avx3`, the fast path for that one; `edgecase:scalar`, the incremental
 /// reference; the member of the family for its name (family_subject.h). Null for any other variant, and for an
-/// instruction set that the machine has not. The fast path takes one
-/// sample in the pixel's centre, no scissor, and up to 8 subpixel bits; where a scene asks for more, the scalar one
-/// stands in.
+/// instruction set that the machine has not. The fast path takes
+/// every setting, and up to 8 subpixel bits; where a scene has more of these, the scalar one stands in.
 ///
 /// The first two follow the scene's subpixel bits, all of 0 to 16, with 16 integer bits: coordinates that round to a
 /// number from -32768 px to one subpixel below 32768 px. SubjectInfo::max_coordinate is for 8 bits, and for both signs.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "conformance/scene/coordinates.h"
 #include "conformance/scene/scene.h"
 
 namespace edgecase::conformance {
@@ -36,6 +37,12 @@ class EnclosingViewport {
            (window == 0.0F || std::abs(n) >= std::numeric_limits<float>::min());
   }
   bool carries(const Position& p) const { return carries(p.x) && carries(p.y); }
+
+  /// Whether carries() holds of all these. Between the least normal ndc and 1 scaling by a power of two is exact, there
+  /// and back.
+  bool carries(const Magnitudes& window) const {
+    return window.largest <= half_ && window.least_above_zero >= std::numeric_limits<float>::min() * half_;
+  }
 
  private:
   float half_;

@@ -230,6 +230,7 @@ tl::expected<void, Error> OsmesaDriver::use(const MaskLayout& layout, Program& p
   set("samples", static_cast<std::size_t>(layout.samples));
   set("row_words", layout.row_words() * 2);
   set("rows", static_cast<std::size_t>(layout.target.height));
+  set("columns", static_cast<std::size_t>(layout.target.width));
   program.layout = layout;
   return {};
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conformance/scene/coordinates.h"
+
 namespace edgecase::conformance {
 namespace {
 
@@ -42,6 +44,7 @@ std::optional<std::string> Subject::refusal(const Scene& scene) const {
     if (!self.clip) return "clip space";
     if (auto reason = refused_viewport(self, scene.clip->viewport)) return reason;
   }
+  if (magnitudes(scene.triangles).largest <= self.max_coordinate) return std::nullopt;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     for (std::size_t v = 0; v < 3; ++v) {
       const Position& position = scene.triangles[i][v];

@@ -57,6 +57,13 @@ class Subject {
   /// triangle i covered. Called only for scenes that are not refused.
   virtual tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) = 0;
 
+  /// The same for who only looks at the masks: they lie where the subject has them, or in `scratch`, and stay there
+  /// until it draws again.
+  virtual tl::expected<MaskBatchView, Error> draw_in_place(const Scene& scene, MaskBatch& scratch) {
+    if (auto drawn = draw(scene, scratch); !drawn) return tl::unexpected(drawn.error());
+    return scratch;
+  }
+
   /// Seconds that all draws so far took inside the driver itself, from submission to the last finished sample: what
   /// would be spent without this suite around it. 0 for a subject that does not measure it.
   virtual double driver_seconds() const { return 0; }

@@ -12,6 +12,7 @@
 
 #include "conformance/scene/setting.h"
 #include "conformance/subjects/enclosing_viewport.h"
+#include "conformance/subjects/vulkan_pipelines.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -66,10 +67,18 @@ struct Candidate {
   }
 };
 
-std::vector<int> sample_counts(const vk::PhysicalDeviceLimits& limits, bool colour_target) {
+// Of images of kColourFormat to draw to. Empty where there are none.
+vk::ImageFormatProperties colour_images(const vk::raii::PhysicalDevice& device) {
+  try {
+    return device.getImageFormatProperties(kColourFormat, vk::ImageType::e2D, vk::ImageTiling::eOptimal,
+                                           vk::ImageUsageFlagBits::eColorAttachment);
+  } catch (const vk::FormatNotSupportedError&) {
+    return {};
+  }
+}
+
+std::vector<int> sample_counts(const vk::PhysicalDeviceLimits& limits, vk::SampleCountFlags offered) {
   std::vector<int> counts;
-  const vk::SampleCountFlags offered =
-      colour_target ? limits.framebufferColorSampleCounts : limits.framebufferNoAttachmentsSampleCounts;
   for (const int count : {1, 2, 4, 8, 16}) {
     const bool has = static_cast<bool>(offered & static_cast<vk::SampleCountFlagBits>(count));
     // One sample lies in the pixel's centre in every driver; where several lie is known only of the standard ones.
@@ -79,17 +88,23 @@ std::vector<int> sample_counts(const vk::PhysicalDeviceLimits& limits, bool colo
 }
 
 // A colour image of 16,384 pixels a side would take a gibibyte.
-constexpr int kMaxColourTarget = 4096;
+constexpr std::uint32_t kMaxColourTarget = 4096;
 
 SubjectInfo describe(const Candidate& candidate, bool colour_target) {
   const vk::PhysicalDeviceLimits limits = candidate.device.getProperties().limits;
   SubjectInfo info;
   info.device = fmt::format("{}, {}", candidate.name, candidate.driver);
   info.rules.subpixel_bits = static_cast<int>(limits.subPixelPrecisionBits);
-  info.sample_counts = sample_counts(limits, colour_target);
-  info.max_target = static_cast<int>(std::min(
-      {limits.maxFramebufferWidth, limits.maxFramebufferHeight, static_cast<std::uint32_t>(kMaxTargetExtent)}));
-  if (colour_target) info.max_target = std::min(info.max_target, kMaxColourTarget);
+  std::uint32_t max_target =
+      std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, static_cast<std::uint32_t>(kMaxTargetExtent)});
+  vk::SampleCountFlags offered = limits.framebufferNoAttachmentsSampleCounts;
+  if (colour_target) {
+    const vk::ImageFormatProperties images = colour_images(candidate.device);
+    max_target = std::min({max_target, images.maxExtent.width, images.maxExtent.height, kMaxColourTarget});
+    offered = limits.framebufferColorSampleCounts & images.sampleCounts;
+  }
+  info.sample_counts = sample_counts(limits, offered);
+  info.max_target = static_cast<int>(max_target);
   info.scissor = true;
   info.cull = true;
   // gl_PrimitiveID needs them.
@@ -166,7 +181,11 @@ tl::expected<void, Error> VulkanDevice::State::choose(const VulkanSelection& sel
   }
   info = describe(*found, selection.colour_target);
   colour_target = selection.colour_target;
-  max_storage_bytes = found->device.getProperties().limits.maxStorageBufferRange;
+  const auto properties =
+      found->device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
+  max_storage_bytes =
+      std::min<std::size_t>(properties.get<vk::PhysicalDeviceProperties2>().properties.limits.maxStorageBufferRange,
+                            properties.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize);
   physical = std::move(found->device);
   return {};
 }

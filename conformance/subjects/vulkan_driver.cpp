@@ -19,6 +19,7 @@ namespace {
 struct PushConstants {
   std::uint32_t row_words;  // 32-bit words
   std::uint32_t rows;
+  std::uint32_t columns;
 };
 
 // A buffer in coherent memory that stays mapped.
@@ -141,7 +142,8 @@ void VulkanDriver::record_draw(const Recorded& wanted) {
   };
   const Viewport& viewport = wanted.viewport;
   const PushConstants push{static_cast<std::uint32_t>(layout.row_words() * 2),
-                           static_cast<std::uint32_t>(layout.target.height)};
+                           static_cast<std::uint32_t>(layout.target.height),
+                           static_cast<std::uint32_t>(layout.target.width)};
   const auto render_pass = pipelines_->render_pass(layout.samples);
   const auto framebuffer = pipelines_->framebuffer(layout.samples, layout.target);
   commands_.beginRenderPass({render_pass, framebuffer, rect({0, 0, layout.target.width, layout.target.height})},

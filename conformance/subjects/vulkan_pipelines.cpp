@@ -15,7 +15,6 @@ namespace {
 
 // Per sample count; enough for the sizes that a run alternates between.
 constexpr std::size_t kKeptFramebuffers = 64;
-constexpr vk::Format kColourFormat = vk::Format::eB8G8R8A8Unorm;
 
 vk::ShaderModuleCreateInfo vertex_code(bool primitive_id) {
   if (primitive_id) return {{}, coverage_vert_primitive_id_spirv};

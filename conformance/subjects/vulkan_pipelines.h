@@ -10,6 +10,9 @@
 
 namespace edgecase::conformance {
 
+/// Of VulkanSelection::colour_target.
+inline constexpr vk::Format kColourFormat = vk::Format::eB8G8R8A8Unorm;
+
 /// What a pipeline is made for.
 struct PipelineKey {
   int samples = 1;

@@ -64,6 +64,7 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
     return fmt::format("{} triangles in one assembly: their masks exceed its largest buffer, {} bytes",
                        scene.triangles.size(), max_mask_bytes_);
   }
+  if (viewport_.carries(magnitudes(scene.triangles))) return std::nullopt;
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     for (std::size_t v = 0; v < 3; ++v) {
       const Position& p = scene.triangles[t][v];
@@ -76,21 +77,29 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
   return std::nullopt;
 }
 
-tl::expected<void, Error> WorkerSubject::draw(const Scene& scene, MaskBatch& masks) {
-  const MaskLayout layout(scene.setting);
-  const std::size_t triangles = scene.clip ? scene.clip->triangles.size() : scene.triangles.size();
-  masks.reset(layout, triangles);
-  const std::size_t mask_bytes = layout.words() * sizeof(std::uint64_t);
+std::size_t WorkerSubject::most_at_once(const Scene& scene) const {
   // An assembly cannot be split: its triangles share vertices, and are numbered through.
-  const std::size_t part =
-      scene.assembly ? triangles : std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
+  if (scene.assembly) return scene.triangles.size();
+  const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
+  return std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
+}
+
+tl::expected<void, Error> WorkerSubject::draw(const Scene& scene, MaskBatch& masks) {
+  const std::size_t triangles = triangle_count(scene);
+  const std::size_t part = most_at_once(scene);
+  masks.reset(MaskLayout(scene.setting), triangles);
   for (std::size_t first = 0; first < triangles; first += part) {
-    const std::size_t count = std::min(part, triangles - first);
-    if (auto drawn = draw_part(scene, first, count, masks); !drawn) {
-      return tl::unexpected(Error{drawn.error().kind, fmt::format("{}: {}", info_.name, drawn.error().message)});
-    }
+    const auto drawn = draw_part(scene, first, std::min(part, triangles - first));
+    if (!drawn) return tl::unexpected(drawn.error());
+    std::memcpy(masks[first].data(), drawn->data().data(), drawn->data().size_bytes());
   }
   return {};
+}
+
+tl::expected<MaskBatchView, Error> WorkerSubject::draw_in_place(const Scene& scene, MaskBatch& scratch) {
+  const std::size_t triangles = triangle_count(scene);
+  if (triangles == 0 || triangles > most_at_once(scene)) return Subject::draw_in_place(scene, scratch);
+  return draw_part(scene, 0, triangles);
 }
 
 tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std::size_t first, std::size_t count) {
@@ -120,7 +129,8 @@ tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std:
   auto* vertex = reinterpret_cast<ClipPosition*>(memory.data());
   const auto add = [&](const Position& p) { *vertex++ = {viewport_.ndc(p.x), viewport_.ndc(p.y), 0, 1}; };
   if (scene.clip) {
-    for (std::size_t t = first; t < first + count; ++t) vertex = std::ranges::copy(scene.clip->triangles[t], vertex).out;
+    for (std::size_t t = first; t < first + count; ++t)
+      vertex = std::ranges::copy(scene.clip->triangles[t], vertex).out;
   } else if (scene.assembly) {
     std::ranges::for_each(scene.assembly->vertices, add);
     std::ranges::copy(scene.assembly->indices,
@@ -131,33 +141,33 @@ tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std:
   return request;
 }
 
-tl::expected<void, Error> WorkerSubject::draw_part(const Scene& scene, std::size_t first, std::size_t count,
-                                                   MaskBatch& masks) {
+tl::expected<MaskBatchView, Error> WorkerSubject::draw_part(const Scene& scene, std::size_t first, std::size_t count) {
+  const auto failure = [&](ErrorKind kind, std::string_view what) {
+    return tl::unexpected(Error{kind, fmt::format("{}: {}", info_.name, what)});
+  };
   if (!worker_) {
     auto restarted = WorkerProcess::start(command_);
-    if (!restarted) return tl::unexpected(restarted.error());
+    if (!restarted) return failure(restarted.error().kind, restarted.error().message);
     worker_ = std::move(*restarted);
   }
   const auto request = lay_out(scene, first, count);
-  if (!request) return tl::unexpected(request.error());
+  if (!request) return failure(request.error().kind, request.error().message);
   const MaskLayout layout(scene.setting);
   const auto drawing = std::chrono::milliseconds(
       static_cast<std::int64_t>(static_cast<double>(layout.sample_count() * count) * kMicrosecondsPerSample / 1000));
   const auto reply = worker_->draw(*request, command_.time_limit + drawing);
   if (!reply) {
     worker_.reset();
-    return tl::unexpected(
-        Error{reply.error().kind, fmt::format("drawing triangles {} to {} of {}, the driver {}", first,
-                                              first + count - 1, masks.size(), reply.error().message)});
+    return failure(reply.error().kind, fmt::format("drawing triangles {} to {} of {}, the driver {}", first,
+                                                   first + count - 1, triangle_count(scene), reply.error().message));
   }
   if (!reply->status.ok) {
     worker_.reset();  // A driver that refused what it said it could do is not trusted with the next draw.
-    return tl::unexpected(Error{reply->status.kind, std::string(reply->status.message.view())});
+    return failure(reply->status.kind, reply->status.message.view());
   }
   driver_seconds_ += reply->driver_seconds;
-  std::memcpy(masks[first].data(), worker_->memory().data() + request->masks_offset,
-              layout.words() * sizeof(std::uint64_t) * count);
-  return {};
+  const auto* masks = reinterpret_cast<const std::uint64_t*>(worker_->memory().data() + request->masks_offset);
+  return MaskBatchView(layout.words(), {masks, layout.words() * count});
 }
 
 }  // namespace edgecase::conformance

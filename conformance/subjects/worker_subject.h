@@ -24,13 +24,18 @@ class WorkerSubject final : public Subject {
   /// larger than the driver's largest buffer; a vertex that the driver's viewport transform would change.
   std::optional<std::string> refusal(const Scene& scene) const override;
   tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override;
+  /// In the memory that it shares with the worker, if one draw suffices.
+  tl::expected<MaskBatchView, Error> draw_in_place(const Scene& scene, MaskBatch& scratch) override;
   double driver_seconds() const override { return driver_seconds_; }
 
  private:
   WorkerSubject(const std::string& name, WorkerCommand command, std::unique_ptr<WorkerProcess> worker);
   /// Lays the vertices of triangles `first` to `first + count - 1` into the worker's memory, and leaves room for masks.
   tl::expected<DrawRequest, Error> lay_out(const Scene& scene, std::size_t first, std::size_t count);
-  tl::expected<void, Error> draw_part(const Scene& scene, std::size_t first, std::size_t count, MaskBatch& masks);
+  /// How many triangles one draw may hold.
+  std::size_t most_at_once(const Scene& scene) const;
+  /// Their masks, in the worker's memory.
+  tl::expected<MaskBatchView, Error> draw_part(const Scene& scene, std::size_t first, std::size_t count);
 
   WorkerCommand command_;
   std::unique_ptr<WorkerProcess> worker_;  ///< none after a crash

@@ -167,14 +167,16 @@ TEST(BenchPlain, IsExactInNarrowAndInWideSteps) {
     };
     rasterizer::FixedTriangle<F> triangle;
     for (auto& v : triangle) v = vertex();
-    std::vector<std::uint8_t> observed(90 * 50), expected(90 * 50);
-    cover_plain<8>(triangle, target, observed.data());
+    std::vector<std::uint8_t> observed(90 * 50), vectorized(90 * 50), expected(90 * 50);
+    cover_plain<8>(PlainLoop::scalar, triangle, target, observed.data());
+    cover_plain<8>(PlainLoop::vectorized, triangle, target, vectorized.data());
     rasterizer::cover_scalar<F>(triangle, rasterizer::View<>{target}, [&](int y, int word, std::uint64_t bits) {
       for (int bit = 0; bit < 64; ++bit) {
         if (bits >> bit & 1) expected.at(static_cast<std::size_t>(y * 90 + word * 64 + bit)) = 1;
       }
     });
     ASSERT_EQ(observed, expected) << i;
+    ASSERT_EQ(vectorized, expected) << i;
   }
 }
 

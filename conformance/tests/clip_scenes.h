@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "conformance/models/llvmpipe_wrap.h"
 #include "conformance/models/window_scene.h"
 #include "conformance/tests/driver_subject_checks.h"
 
@@ -92,13 +93,20 @@ inline std::string described(const Scene& scene, std::size_t i) {
   return text.str();
 }
 
-/// What the model makes of the scene, with our own rasterizer, against the masks that a driver drew.
+/// What the model makes of the scene, with our own rasterizer and llvmpipe's wrap, against the masks that a driver
+/// drew.
 inline Tally compared(const MaskBatch& found, const TransformModel& model, const Scene& scene) {
   static const std::unique_ptr<Subject> exact = subject_or_failure("edgecase");
   Tally tally;
   const WindowScene window = window_scene(model, scene);
   MaskBatch predicted;
-  unite(window, drawn(*exact, window.scene), predicted);
+  MaskBatch parts = drawn(*exact, window.scene);
+  const bool llvmpipe = model.name != swiftshader_model().name;
+  for (std::size_t i = 0; llvmpipe && i < parts.size(); ++i) {
+    const Triangle& part = window.scene.triangles[i];
+    if (llvmpipe_may_wrap(window.scene.setting, part)) predict_llvmpipe_wrap(window.scene.setting, part, parts[i]);
+  }
+  unite(window, parts, predicted);
   tally.triangles = window.size();
   tally.unpredicted = window.unpredicted.size();
   if (found.size() != predicted.size()) {

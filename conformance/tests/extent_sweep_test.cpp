@@ -45,9 +45,9 @@ class Bounded : public Subject {
   float accepted_;
 };
 
-Limit limit_of(Subject& subject, std::size_t triangles = 100) {
+Limit limit_of(Subject& subject, std::size_t triangles = 100, const KnownDeviation* deviation = nullptr) {
   auto reference = reference_for("bounded").value();
-  const auto limit = find_limit(subject, subject.info().rules, reference, 1, triangles);
+  const auto limit = find_limit(subject, subject.info().rules, reference, deviation, 1, triangles);
   EXPECT_TRUE(limit) << limit.error().message;
   return limit.value_or(Limit{});
 }
@@ -92,10 +92,47 @@ TEST(ExtentSweep, FindsWhereASubjectRefuses) {
   EXPECT_EQ(describe_limit(limit_of(never)), "wrong at ±1 px already");
 }
 
+// As Bounded, but wrong from 100 px on, which is all that is known of it.
+void predict_bounded(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
+  Scene scene;
+  scene.setting = setting;
+  scene.triangles = {triangle};
+  MaskBatch masks;
+  ASSERT_TRUE(Bounded(100, kNever).draw(scene, masks));
+  std::ranges::copy(masks[0], mask.begin());
+}
+
+TEST(ExtentSweep, ADeviationExplainsFurther) {
+  const KnownDeviation all{"bounded", "", "", nullptr, predict_bounded};
+  Bounded accepted(100, 8192);
+  EXPECT_EQ(describe_limit(limit_of(accepted, 100, &all)),
+            "exact to ±100 px, as its known deviation predicts to ±8,192 px; beyond: not accepted");
+  const KnownDeviation half{"bounded", "", "",
+                            [](const Setting&, const Triangle& triangle) { return reach(triangle) <= 5000; },
+                            predict_bounded};
+  EXPECT_EQ(describe_limit(limit_of(accepted, 100, &half)),
+            "exact to ±100 px, as its known deviation predicts to ±5,000 px; beyond: wrong samples");
+  // Wrong, but not as predicted: nothing is explained.
+  const KnownDeviation other{"bounded", "", "", nullptr,
+                             [](const Setting&, const Triangle&, MutableMaskView mask) { std::ranges::fill(mask, 0); }};
+  EXPECT_EQ(describe_limit(limit_of(accepted, 100, &other)), "exact to ±100 px; beyond: wrong samples");
+}
+
+// The largest value of an edge within the target's blocks, (E + 64.5)(E + 32.5) px^2, is that of a right angle which
+// reaches E to the left and above and ends with the first tile. It comes to 2^23 between 2,847.8515625 and one subpixel
+// more.
+TEST(ExtentSweep, LlvmpipesLimitIsWhereItsEdgesWrap) {
+  const auto product = [](double extent) { return (extent + 64.5) * (extent + 32.5); };
+  ASSERT_LT(product(2847.8515625), 0x1p23);
+  ASSERT_GE(product(2847.8515625 + 1.0 / 256), 0x1p23);
+  auto lavapipe = make_subject("lavapipe").value();
+  EXPECT_EQ(describe_limit(limit_of(*lavapipe, 2000)), "exact to ±2,847.8515625 px; beyond: wrong samples");
+}
+
 TEST(ExtentSweep, OursIsExactOverTheWholeFormatAndAnOverflowIsNot) {
   auto ours = make_subject("edgecase").value();
   auto oracle = reference_for("edgecase").value();
-  const auto limit = find_limit(*ours, {}, oracle, 1, 300);
+  const auto limit = find_limit(*ours, {}, oracle, nullptr, 1, 300);
   ASSERT_TRUE(limit) << limit.error().message;
   EXPECT_EQ(describe_limit(*limit), "exact to ±32,767.99609375 px; beyond: not accepted");
   const auto overflow = make_fault_subject("overflow-c");

@@ -28,11 +28,16 @@ TEST(FamilySubject, AgreesWithTheOracleOnEveryGenerator) {
   MaskBatch masks;
   std::vector<std::uint64_t> expected;
   for (const Generator& generator : generators()) {
-    // One sample, no scissor and positions on the grid are all that the family is for.
-    if (generator.setting != Setting{} || generator.category == "float") continue;
+    // One sample, no scissor, lists of triangles and positions on the grid are all that the family is for.
+    if (generator.setting != Setting{} || generator.category == "float" || generator.category == "topology") continue;
     Scene scene;
     scene.setting = generator.setting;
     for (std::uint64_t i = 0; scene.triangles.size() < 400; ++i) append_scene(generator, 9, i, scene);
+    // The one coordinate of 16.8 that is further out than the range that they declare, which is symmetric.
+    std::erase_if(scene.triangles, [](const Triangle& t) {
+      return std::ranges::any_of(t, [](const Position& p) { return p.x == -32768 || p.y == -32768; });
+    });
+    ASSERT_GT(scene.triangles.size(), 100u) << generator.name;
     for (const auto& [name, about] : family_subjects()) {
       SCOPED_TRACE(std::string(generator.name) + ", " + std::string(name));
       const auto subject = make_family_subject(name);

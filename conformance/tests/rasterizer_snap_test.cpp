@@ -88,5 +88,55 @@ TEST(RasterizerSnap, TheErrorNamesTheFirstBadCoordinate) {
   EXPECT_EQ(out[2].y.value(), 5 * 256);
 }
 
+// Lists of every length up to a few blocks of eight, one vertex in so many off the grid, and ends of the range.
+TEST(RasterizerSnap, AListIsSnappedAsItsTrianglesAre) {
+  std::mt19937 random(3);
+  const auto check = [&]<class F>(F) {
+    for (std::size_t length = 0; length < 40; ++length) {
+      std::vector<Triangle> triangles(length);
+      for (Triangle& triangle : triangles) {
+        for (Vertex& v : triangle) {
+          const auto coordinate = [&] {
+            const bool off_grid = length % 3 == 0 && random() % 16 == 0;
+            const auto fine = static_cast<int>(random() % 65536) - 32768;
+            const float on_grid = std::ldexp(static_cast<float>(fine), -static_cast<int>(random() % 9));
+            return off_grid ? on_grid + std::ldexp(1.0f, -11) : random() % 50 == 0 ? -32768.0f : on_grid;
+          };
+          v = {coordinate(), coordinate()};
+        }
+      }
+      std::vector<FixedTriangle<F>> snapped(length);
+      ASSERT_FALSE(snap_list<F>(triangles, snapped));
+      for (std::size_t i = 0; i < length; ++i) {
+        FixedTriangle<F> expected;
+        ASSERT_FALSE(snap<F>(triangles[i], expected));
+        for (std::size_t v = 0; v < 3; ++v) {
+          ASSERT_EQ(snapped[i][v].x.value(), expected[v].x.value()) << length << ' ' << i;
+          ASSERT_EQ(snapped[i][v].y.value(), expected[v].y.value()) << length << ' ' << i;
+        }
+      }
+    }
+  };
+  check(Format16_8());
+  check(Format<16, 0>());
+  check(Format<16, 16>());
+  check(Format<24, 16>());
+}
+
+TEST(RasterizerSnap, AListsErrorNamesTheFirstBadCoordinate) {
+  std::vector<Triangle> triangles(20);
+  std::vector<FixedTriangle<Format16_8>> snapped(20);
+  for (const float bad : {kNan, -kInfinity, 32768.0f, -32769.0f, std::numeric_limits<float>::max()}) {
+    triangles.assign(20, {});
+    triangles[17][1].y = bad;
+    triangles[19][0].x = bad;
+    const auto error = snap_list<Format16_8>(triangles, snapped);
+    ASSERT_TRUE(error) << bad;
+    EXPECT_EQ(error->triangle, 17u);
+    EXPECT_EQ(error->vertex, 1);
+    EXPECT_EQ(error->axis, Axis::y);
+  }
+}
+
 }  // namespace
 }  // namespace edgecase::rasterizer

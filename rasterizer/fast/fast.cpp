@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <vector>
 
 #include "rasterizer/fast/kernels.h"
 
@@ -67,20 +68,102 @@ std::optional<FastRasterizer> FastRasterizer::make(Isa isa) {
   return FastRasterizer(isa, entry(isa).kernels);
 }
 
-void FastRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask) const {
+namespace {
+
+Strips of_region(Strips strips, const Region& region) {
+  strips.words += static_cast<std::size_t>(region.first_strip) * strips.stride + static_cast<std::size_t>(region.top);
+  strips.count = region.strip_count();
+  strips.height = region.height;
+  return strips;
+}
+
+/// Masks of `planes` planes on `layout`: a vector's lanes of triangles at once, as long as their masks stay in the
+/// second-level cache.
+Scratch make_scratch(const StripLayout& layout, int height, int planes, std::vector<std::uint32_t>& words) {
+  constexpr std::size_t kMostWords = 1 << 16;
+  const std::size_t apart = layout.words() * static_cast<std::size_t>(planes);
+  const std::size_t masks = std::clamp<std::size_t>(kMostWords / apart, 1, kMaxLanes);
+  words.resize(apart * masks + layout.stride);
+  return {{words.data(), layout.stride, layout.count, height}, masks, apart};
+}
+
+FirstTriangles of_region(FirstTriangles first, const Region& region) {
+  first.numbers += static_cast<std::size_t>(region.top) * first.row_pixels +
+                   static_cast<std::size_t>(region.first_strip) * kStripWidth;
+  return first;
+}
+
+}  // namespace
+
+void StripMask::to_rows(std::span<std::uint64_t> rows) const {
+  assert(rows.size() == target_.mask_words(samples_));
+  const auto& kernels = *entry(available_isas().back()).kernels;
+  const int width = target_.width().value();
+  // Only read.
+  const Strips strips = const_cast<StripMask*>(this)->strips();
+  if (samples_ == 1) return kernels.strips_to_rows(strips, ~std::uint64_t{0} >> (63 - (width - 1) % 64), rows.data());
+  std::ranges::fill(rows, std::uint64_t{0});
+  const Region whole{0, 0, 0, width, strips.height, samples_, {}};
+  kernels.region_to_rows(strips, plane_words(), whole, target_.row_words(samples_), rows.data());
+}
+
+void FastRasterizer::cover_union(Triangles triangles, StripMask& mask) const {
+  assert(mask.samples() == 1);
   kernels_->cover_union(triangles, mask.target().width().value(), mask.strips());
 }
 
-void FastRasterizer::cover_each(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target,
-                                std::span<std::uint64_t> masks) const {
+void FastRasterizer::cover_union_in(Triangles triangles, const Region& region, StripMask& mask) const {
+  std::vector<std::uint32_t> kept;
+  if (region.left != 0 || region.right % kStripWidth != 0) {
+    kept.resize(2 * static_cast<std::size_t>(region.height) * static_cast<std::size_t>(region.samples));
+  }
+  kernels_->cover_union_in(triangles, region, of_region(mask.strips(), region), mask.plane_words(), kept.data());
+}
+
+void FastRasterizer::cover_each(Triangles triangles, const Target& target, std::span<std::uint64_t> masks) const {
   assert(masks.size() == triangles.size() * target.mask_words());
-  const StripLayout layout(target);
-  // A vector's lanes of triangles at once, as long as their masks stay in the second-level cache.
-  constexpr std::size_t kMostWords = 1 << 16;
-  const std::size_t at_once = layout.words() <= kMostWords / kMaxLanes ? kMaxLanes : 1;
-  std::vector<std::uint32_t> scratch(layout.words() * at_once + layout.stride);
-  kernels_->cover_each(triangles, target.width().value(), at_once, layout.words(),
-                       {scratch.data(), layout.stride, layout.count, target.height().value()}, masks.data());
+  std::vector<std::uint32_t> words;
+  const Scratch scratch = make_scratch(StripLayout(target), target.height().value(), 1, words);
+  kernels_->cover_each(triangles, target.width().value(), scratch, masks.data());
+}
+
+void FastRasterizer::cover_each_in(Triangles triangles, const Region& region, const Target& target,
+                                   std::span<std::uint64_t> masks) const {
+  std::vector<std::uint32_t> words;
+  const StripLayout layout(*Target::make(region.right, region.height));
+  const Scratch scratch = make_scratch(layout, region.height, region.samples, words);
+  kernels_->cover_each_in(triangles, region, scratch, target.row_words(region.samples),
+                          target.mask_words(region.samples), masks.data());
+}
+
+void FastRasterizer::count_each(Triangles triangles, const Target& target, std::span<std::uint64_t> counts) const {
+  assert(counts.size() == triangles.size());
+  kernels_->count_each(triangles, target.width().value(), target.height().value(), counts.data());
+}
+
+void FastRasterizer::count_each_in(Triangles triangles, const Region& region, std::span<std::uint64_t> counts) const {
+  kernels_->count_each_in(triangles, region, counts.data());
+}
+
+void FastRasterizer::cover_first(Triangles triangles, VisibilityBuffer& buffer, std::uint32_t first_number) const {
+  assert(buffer.samples() == 1);
+  const Strips covered = buffer.covered_.strips();
+  const Scratch scratch{{buffer.scratch_.data(), covered.stride, covered.count, covered.height},
+                        kMaxLanes,
+                        buffer.covered_.plane_words()};
+  kernels_->cover_first(triangles, buffer.target().width().value(), scratch, covered,
+                        {buffer.numbers_.data(), buffer.plane_pixels_, buffer.row_pixels_, first_number});
+}
+
+void FastRasterizer::cover_first_in(Triangles triangles, const Region& region, VisibilityBuffer& buffer,
+                                    std::uint32_t first_number) const {
+  const Strips covered = of_region(buffer.covered_.strips(), region);
+  Strips own = covered;
+  own.words = buffer.scratch_.data();
+  const std::size_t apart = buffer.covered_.plane_words() * static_cast<std::size_t>(region.samples);
+  const FirstTriangles first{buffer.numbers_.data(), buffer.plane_pixels_, buffer.row_pixels_, first_number};
+  kernels_->cover_first_in(triangles, region, {own, kMaxLanes, apart}, covered, buffer.covered_.plane_words(),
+                           of_region(first, region));
 }
 
 }  // namespace edgecase::rasterizer

@@ -1,17 +1,29 @@
-// The fast rasterizer: the coverage of scalar.h, bit for bit, in vectors, for one sample in the pixel's centre.
+// The fast rasterizer: the coverage of scalar.h, bit for bit, in vectors.
 //
 // One source is compiled for every instruction set; the best that the machine has is chosen at run time. Vertices are
 // snapped already, see snap(), and lie anywhere in the 16.8 format; a list of them is read as it is. Nothing allocates
 // for a triangle, and nothing can fail.
+//
+//   const FastRasterizer fast;
+//   StripMask mask(target);
+//   fast.cover_union(triangles, mask);  // one sample in the centre, the whole target
+//   StripMask four(target, 4);
+//   fast.cover_union(triangles, View<SamplePattern, Scissor>{target, *samples, {0, 0, 640, 480}}, four);
+//
+// What a scene asks for is chosen by type: a target or a View, as for cover() in rasterizer.h, and one of the functions
+// below. The code for one sample in the centre of the whole target knows of nothing else.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "rasterizer/fast/strip_mask.h"
+#include "rasterizer/fast/visibility_buffer.h"
 #include "rasterizer/format.h"
+#include "rasterizer/sample_pattern.h"
 
 namespace edgecase::rasterizer {
 
@@ -24,8 +36,12 @@ std::string_view name_of(Isa isa);
 /// The instruction sets that this program was built for and this machine has, ascending; `portable` is always there.
 std::span<const Isa> available_isas();
 
+struct Region;
+
 class FastRasterizer {
  public:
+  using Triangles = std::span<const FixedTriangle<Format16_8>>;
+
   /// For the best of available_isas().
   FastRasterizer();
   /// Nothing if `isa` is not available.
@@ -33,21 +49,49 @@ class FastRasterizer {
 
   Isa isa() const { return isa_; }
 
-  /// Adds the coverage of every triangle to `mask`: their union.
-  void cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask) const;
+  /// Adds the coverage of every triangle to `mask`: their union. The mask has the view's target and number of samples.
+  void cover_union(Triangles triangles, StripMask& mask) const;
+  template <class Samples, class Clip>
+  void cover_union(Triangles triangles, const View<Samples, Clip>& view, StripMask& mask) const;
 
-  /// Writes the mask of every triangle on its own, triangle i's to the target.mask_words() words from i *
-  /// target.mask_words() on, laid out as a Mask is. `masks` has that many words for each triangle.
-  void cover_each(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target,
-                  std::span<std::uint64_t> masks) const;
+  /// Writes the mask of every triangle on its own, triangle i's to the words from i * n on, n =
+  /// target.mask_words(samples), laid out as a Mask is. `masks` has that many words for each triangle.
+  void cover_each(Triangles triangles, const Target& target, std::span<std::uint64_t> masks) const;
+  template <class Samples, class Clip>
+  void cover_each(Triangles triangles, const View<Samples, Clip>& view, std::span<std::uint64_t> masks) const;
+
+  /// Writes how many samples every triangle covers: as many numbers as there are triangles. No mask is drawn for it.
+  void count_each(Triangles triangles, const Target& target, std::span<std::uint64_t> counts) const;
+  template <class Samples, class Clip>
+  void count_each(Triangles triangles, const View<Samples, Clip>& view, std::span<std::uint64_t> counts) const;
+
+  /// Gives a number to every sample that has none and that a triangle covers: that of the first triangle to do so,
+  /// triangle i having the number first_number + i. The buffer has the view's target and number of samples. A list may
+  /// be given in parts.
+  void cover_first(Triangles triangles, VisibilityBuffer& buffer, std::uint32_t first_number = 0) const;
+  template <class Samples, class Clip>
+  void cover_first(Triangles triangles, const View<Samples, Clip>& view, VisibilityBuffer& buffer,
+                   std::uint32_t first_number = 0) const;
 
   /// What a target's kernels look like from outside.
   struct Kernels;
 
  private:
+  template <class Samples, class Clip>
+  static constexpr bool kIsPlain = std::is_same_v<Samples, CentreSample>&& std::is_same_v<Clip, WholeTarget>;
+
+  void cover_union_in(Triangles triangles, const Region& region, StripMask& mask) const;
+  void cover_each_in(Triangles triangles, const Region& region, const Target& target,
+                     std::span<std::uint64_t> masks) const;
+  void count_each_in(Triangles triangles, const Region& region, std::span<std::uint64_t> counts) const;
+  void cover_first_in(Triangles triangles, const Region& region, VisibilityBuffer& buffer,
+                      std::uint32_t first_number) const;
+
   FastRasterizer(Isa isa, const Kernels* kernels) : isa_(isa), kernels_(kernels) {}
   Isa isa_;
   const Kernels* kernels_;
 };
 
 }  // namespace edgecase::rasterizer
+
+#include "rasterizer/fast/fast_views.h"

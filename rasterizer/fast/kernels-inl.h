@@ -1,5 +1,7 @@
-// Lists of triangles: each group of as many as a vector has lanes is set up at once and goes the way of its sizes.
-#include "rasterizer/fast/large-inl.h"
+// Everything but the union of one centre sample: masks of each triangle, counts, first triangles, and regions.
+#include "rasterizer/fast/counts-inl.h"
+#include "rasterizer/fast/first-inl.h"
+#include "rasterizer/fast/rows-inl.h"
 
 #if defined(EDGECASE_FAST_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGECASE_FAST_KERNELS_INL_H_
@@ -8,136 +10,98 @@
 #define EDGECASE_FAST_KERNELS_INL_H_
 #endif
 
-#include <array>
 #include <cstring>
-#include <span>
 
 HWY_BEFORE_NAMESPACE();
 namespace edgecase::rasterizer::HWY_NAMESPACE {
 
-using SnappedTriangle = FixedTriangle<Format16_8>;
-static_assert(sizeof(SnappedTriangle) == 6 * sizeof(std::int32_t) && std::is_trivially_copyable_v<SnappedTriangle>);
-
-/// kLanes triangles, a triangle to a lane.
-HWY_INLINE LaneVertices load_vertices(const SnappedTriangle* triangles) {
-  LaneVertices v;
-  const auto d = DI32();
-#if HWY_TARGET == HWY_SCALAR
-  for (std::size_t i = 0; i < 3; ++i) {
-    v.x[i] = hn::Set(d, (*triangles)[i].x.value());
-    v.y[i] = hn::Set(d, (*triangles)[i].y.value());
+/// Border bits.
+///
+/// A region's first and last strip may hold columns that do not belong to it. What these hold is kept aside while the
+/// region is drawn, and put back: a cost of the region's height, not of any triangle.
+class KeptColumns {
+ public:
+  KeptColumns(const Region& region, const Strips& strips, std::size_t apart, std::uint32_t* kept)
+      : region_(region), strips_(strips), apart_(apart), kept_(kept) {
+    for_each([](std::uint32_t columns, std::uint32_t& word, std::uint32_t& kept_word) { kept_word = word & ~columns; });
   }
-#else
-  // A vertex is one lane of 64 bits, x in its lower half. Read by vector loads only, which may alias anything.
-  const hn::Repartition<std::uint64_t, DI32> pairs;
-  const auto* words = reinterpret_cast<const std::uint64_t*>(triangles);
-  hn::Vec<decltype(pairs)> low[3], high[3];
-  hn::LoadInterleaved3(pairs, words, low[0], low[1], low[2]);
-  hn::LoadInterleaved3(pairs, words + 3 * kLanes / 2, high[0], high[1], high[2]);
-  for (std::size_t i = 0; i < 3; ++i) {
-    v.x[i] = hn::ConcatEven(d, hn::BitCast(d, high[i]), hn::BitCast(d, low[i]));
-    v.y[i] = hn::ConcatOdd(d, hn::BitCast(d, high[i]), hn::BitCast(d, low[i]));
+  void restore() const {
+    for_each([](std::uint32_t columns, std::uint32_t& word, std::uint32_t& kept_word) {
+      word = (word & columns) | kept_word;
+    });
   }
-#endif
-  return v;
-}
 
-/// Draws kLanes triangles; the one in lane i into the strips that begin i * `apart` words further on.
-HWY_INLINE void draw_group(const SnappedTriangle* triangles, int width, std::size_t apart, const Strips& strips) {
-  const auto d = DI32();
-  const LaneSetup setup = make_lane_setup(load_vertices(triangles));
-  const I32 zero = hn::Zero(d);
-  const I32 columns = hn::Sub(setup.right, setup.left);
-  const I32 rows = hn::Sub(setup.bottom, setup.top);
-  // As with edge functions, a conjunction of conditions "not negative" is the sign of the or.
-  const auto room_in = [&](I32 value, int most) { return hn::Sub(hn::Set(d, most), value); };
-  const I32 inside =
-      hn::Or(hn::Or(setup.left, setup.top), hn::Or(room_in(setup.right, width), room_in(setup.bottom, strips.height)));
-  const I32 fits = hn::Or(room_in(columns, kSmallColumns), room_in(rows, kSmallRows));
-  const I32 minus_one = hn::Set(d, -1);
-  const M32 small = hn::Gt(hn::Or(inside, fits), minus_one);
-  draw_small(setup, small, hn::Mul(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(apart))), strips);
-
-  if (hn::AllTrue(d, small)) return;
-  const I32 reaching_in = hn::Min(hn::Min(setup.right, setup.bottom),
-                                  hn::Min(room_in(setup.left, width), room_in(setup.top, strips.height)));
-  const M32 visible = hn::Gt(hn::Min(reaching_in, hn::Min(columns, rows)), zero);
-  std::uint64_t others = bits_of(hn::AndNot(small, visible));
-  if (others == 0) return;
-  const std::uint64_t medium =
-      bits_of(hn::Gt(hn::Or(room_in(columns, kMediumExtent), room_in(rows, kMediumExtent)), minus_one));
-  StoredSetup stored;
-  if ((others & medium) != 0) store(setup, stored);
-  const I32 in_block =
-      hn::Or(room_in(rows, kBlockRows), room_in(hn::Sub(setup.right, setup.strip_left), kBlockColumns));
-  const std::uint64_t block = others & bits_of(hn::Gt(hn::Or(inside, in_block), minus_one));
-  for (std::uint64_t lanes = block; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-    Strips own = strips;
-    own.words += lane * apart;
-    draw_block(stored, lane, own);
-  }
-  for (std::uint64_t lanes = others & ~block; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-    Strips own = strips;
-    own.words += lane * apart;
-    if (medium >> lane & 1) {
-      draw_medium(stored, lane, own);
-    } else {
-      draw_large(triangles[lane], width, own);
+ private:
+  template <class Each>
+  void for_each(const Each& each) const {
+    std::uint32_t* kept = kept_;
+    for (int sample = 0; sample < region_.samples; ++sample) {
+      for (const int strip : {0, region_.strip_count() - 1}) {
+        const std::uint32_t columns = region_.columns(strip);
+        if (columns == ~std::uint32_t{0}) continue;
+        std::uint32_t* words = strips_.words + static_cast<std::size_t>(sample) * apart_ +
+                               static_cast<std::size_t>(strip) * strips_.stride;
+        for (int y = 0; y < region_.height; ++y) each(columns, words[y], kept[y]);
+        kept += region_.height;
+        if (region_.strip_count() == 1) break;
+      }
     }
   }
+  const Region& region_;
+  const Strips& strips_;
+  std::size_t apart_;
+  std::uint32_t* kept_;
+};
+
+inline void cover_union_in(std::span<const SnappedTriangle> triangles, const Region& region, const Strips& strips,
+                           std::size_t apart, std::uint32_t* kept) {
+  const KeptColumns outside(region, strips, apart, kept);
+  draw_list(triangles, RegionPlanes{region, apart}, region.right, 0, strips);
+  outside.restore();
 }
 
-/// Draws any number of triangles.
-inline void draw_list(std::span<const SnappedTriangle> triangles, int width, std::size_t apart, Strips strips) {
-  const std::size_t whole = triangles.size() / kLanes * kLanes;
-  for (std::size_t i = 0; i < whole; i += kLanes) {
-    draw_group(triangles.data() + i, width, apart, strips);
-    strips.words += kLanes * apart;
-  }
-  if (whole == triangles.size()) return;
-  std::array<SnappedTriangle, kLanes> last{};  // the rest of them without area
-  std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(whole), triangles.end(), last.begin());
-  draw_group(last.data(), width, apart, strips);
-}
-
-inline void cover_union(std::span<const SnappedTriangle> triangles, int width, const Strips& strips) {
-  draw_list(triangles, width, 0, strips);
-}
-
-/// A mask as strips, written out as rows. `last_word`: the pixels of a row's last word.
-HWY_INLINE void strips_to_rows(const Strips& strips, std::uint64_t last_word, std::uint64_t* rows) {
-  const std::uint32_t* left = strips.words;
-  const int words = (strips.count + 1) / 2;
-  for (int word = 0; word < words; ++word, left += 2 * strips.stride) {
-    const bool single = 2 * word + 1 == strips.count;
-    const std::uint64_t pixels = word + 1 == words ? last_word : ~std::uint64_t{0};
-    for (int y = 0; y < strips.height; ++y) {
-      const std::uint64_t right = single ? 0 : left[strips.stride + static_cast<std::size_t>(y)];
-      rows[y * words + word] = (left[y] | right << 32) & pixels;
-    }
+/// Calls write(strips, i) for each triangle i, drawn by draw(list, strips) into strips of its own, clear before.
+template <class Draw, class Write>
+HWY_INLINE void draw_each(std::span<const SnappedTriangle> triangles, const Scratch& scratch, const Draw& draw,
+                          const Write& write) {
+  for (std::size_t first = 0; first < triangles.size(); first += scratch.masks) {
+    const auto list = triangles.subspan(first, std::min(scratch.masks, triangles.size() - first));
+    std::memset(scratch.strips.words, 0, list.size() * scratch.apart * sizeof(std::uint32_t));
+    draw(list, scratch.strips);
+    Strips own = scratch.strips;
+    for (std::size_t i = 0; i < list.size(); ++i, own.words += scratch.apart) write(own, first + i);
   }
 }
 
-/// `scratch`: strips for `at_once` triangles, `apart` words apart.
-inline void cover_each(std::span<const SnappedTriangle> triangles, int width, std::size_t at_once, std::size_t apart,
-                       const Strips& scratch, std::uint64_t* masks) {
+inline void cover_each(std::span<const SnappedTriangle> triangles, int width, const Scratch& scratch,
+                       std::uint64_t* masks) {
   const std::uint64_t last_word = ~std::uint64_t{0} >> (63 - (width - 1) % 64);
   const std::size_t mask_words =
-      static_cast<std::size_t>(scratch.count + 1) / 2 * static_cast<std::size_t>(scratch.height);
-  for (std::size_t first = 0; first < triangles.size(); first += at_once) {
-    const auto group = triangles.subspan(first, std::min(at_once, triangles.size() - first));
-    std::memset(scratch.words, 0, group.size() * apart * sizeof(std::uint32_t));
-    draw_list(group, width, apart, scratch);
-    Strips own = scratch;
-    for (std::size_t i = 0; i < group.size(); ++i, own.words += apart) {
-      strips_to_rows(own, last_word, masks + (first + i) * mask_words);
-    }
-  }
+      static_cast<std::size_t>(scratch.strips.count + 1) / 2 * static_cast<std::size_t>(scratch.strips.height);
+  draw_each(
+      triangles, scratch,
+      [&](std::span<const SnappedTriangle> list, const Strips& strips)
+          HWY_ATTR { draw_list(list, CentrePlane(), width, scratch.apart, strips); },
+      [&](const Strips& strips, std::size_t i) { strips_to_rows(strips, last_word, masks + i * mask_words); });
 }
 
-inline constexpr FastRasterizer::Kernels kKernels{&cover_union, &cover_each};
+inline void cover_each_in(std::span<const SnappedTriangle> triangles, const Region& region, const Scratch& scratch,
+                          std::size_t row_words, std::size_t mask_words, std::uint64_t* masks) {
+  const std::size_t plane_words = scratch.apart / static_cast<std::size_t>(region.samples);
+  std::fill_n(masks, triangles.size() * mask_words, std::uint64_t{0});
+  draw_each(
+      triangles, scratch,
+      [&](std::span<const SnappedTriangle> list, const Strips& strips) HWY_ATTR {
+        draw_list(list, RegionPlanes{region, plane_words}, region.right, scratch.apart, strips);
+      },
+      [&](const Strips& strips, std::size_t i) {
+        region_to_rows(strips, plane_words, region, row_words, masks + i * mask_words);
+      });
+}
+
+inline constexpr FastRasterizer::Kernels kKernels{&cover_union,    &cover_union_in, &cover_each,  &cover_each_in,
+                                                  &count_each,     &count_each_in,  &cover_first, &cover_first_in,
+                                                  &strips_to_rows, &region_to_rows};
 
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
+#include "rasterizer/fast/region.h"
 #include "rasterizer/fast/strip_mask.h"
 
 HWY_BEFORE_NAMESPACE();

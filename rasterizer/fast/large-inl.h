@@ -283,7 +283,8 @@ HWY_INLINE void sort_by_y(Point& a, Point& b) {
   a = upper;
 }
 
-inline void draw_large(const FixedTriangle<Format16_8>& triangle, int width, const Strips& strips) {
+/// Never inlined, so that its code is the same whoever calls it.
+HWY_NOINLINE void draw_large(const FixedTriangle<ShiftedFormat>& triangle, int width, const Strips& strips) {
   Point v[3];
   for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value(), triangle[i].y.value()};
   sort_by_y(v[0], v[1]);

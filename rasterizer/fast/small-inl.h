@@ -79,21 +79,6 @@ constexpr bool float_decides(int columns, int rows) {
 static_assert(float_decides(kMediumExtent, kMediumExtent));
 static_assert(kSmallColumns <= kMediumExtent && kSmallRows <= kMediumExtent);
 
-HWY_INLINE LaneEdge make_lane_edge(I32 xa, I32 ya, I32 xb, I32 yb, I32 strip_left, I32 row) {
-  const auto d = DI32();
-  // An edge that no row crosses may be horizontal, and then only must not divide by zero.
-  const I32 dy = hn::Max(hn::Sub(yb, ya), hn::Set(d, 1));
-  const I32 dx = hn::Sub(xb, xa);
-  const I32 half = hn::Set(d, 128);
-  const I32 x = hn::Sub(xa, hn::Add(hn::ShiftLeft<8>(strip_left), half));
-  const I32 y = hn::Sub(hn::Add(hn::ShiftLeft<8>(row), half), ya);
-  const I32 n = hn::Add(hn::Mul(dy, x), hn::Mul(dx, y));
-  const I32 c = hn::ShiftRight<8>(hn::Add(n, hn::Set(d, 255)));
-  const I32 k = hn::Add(hn::Add(c, c), hn::Sub(dy, hn::Set(d, 1)));
-  const F32 doubled = hn::ConvertTo(DF32(), hn::Add(dy, dy));
-  return {hn::ConvertTo(DF32(), k), hn::ConvertTo(DF32(), hn::Add(dx, dx)), hn::Div(hn::Set(DF32(), 1.0f), doubled)};
-}
-
 HWY_INLINE void sort_by_y(I32& xa, I32& ya, I32& xb, I32& yb) {
   const auto swap = hn::Lt(yb, ya);
   const I32 x = hn::IfThenElse(swap, xb, xa);
@@ -107,20 +92,75 @@ HWY_INLINE void sort_by_y(I32& xa, I32& ya, I32& xb, I32& yb) {
 /// ceil((v - 1/2 px) / 1 px): the first sample at or beyond v.
 HWY_INLINE I32 first_sample(I32 v) { return hn::ShiftRight<8>(hn::Add(v, hn::Set(DI32(), 127))); }
 
-HWY_INLINE LaneSetup make_lane_setup(LaneVertices v) {
+/// From a to b, as much of it as does not depend on where the samples are.
+struct LaneSlope {
+  I32 dx;
+  I32 dy;
+  F32 step;
+  F32 scale;
+};
+
+/// Triangles with their vertices sorted by y.
+struct LaneTriangle {
+  I32 x[3];
+  I32 y[3];
+  I32 leftmost;
+  I32 rightmost;
+  LaneSlope longer;
+  LaneSlope upper;
+  LaneSlope lower;
+};
+
+HWY_INLINE LaneSlope make_lane_slope(I32 xa, I32 ya, I32 xb, I32 yb) {
+  const auto d = DI32();
+  // An edge that no row crosses may be horizontal, and then only must not divide by zero.
+  const I32 dy = hn::Max(hn::Sub(yb, ya), hn::Set(d, 1));
+  const I32 dx = hn::Sub(xb, xa);
+  const F32 doubled = hn::ConvertTo(DF32(), hn::Add(dy, dy));
+  return {dx, dy, hn::ConvertTo(DF32(), hn::Add(dx, dx)), hn::Div(hn::Set(DF32(), 1.0f), doubled)};
+}
+
+HWY_INLINE LaneTriangle make_lane_triangle(LaneVertices v) {
   sort_by_y(v.x[0], v.y[0], v.x[1], v.y[1]);
   sort_by_y(v.x[1], v.y[1], v.x[2], v.y[2]);
   sort_by_y(v.x[0], v.y[0], v.x[1], v.y[1]);
+  LaneTriangle t;
+  for (std::size_t i = 0; i < 3; ++i) t.x[i] = v.x[i], t.y[i] = v.y[i];
+  t.leftmost = hn::Min(hn::Min(v.x[0], v.x[1]), v.x[2]);
+  t.rightmost = hn::Max(hn::Max(v.x[0], v.x[1]), v.x[2]);
+  t.longer = make_lane_slope(v.x[0], v.y[0], v.x[2], v.y[2]);
+  t.upper = make_lane_slope(v.x[0], v.y[0], v.x[1], v.y[1]);
+  t.lower = make_lane_slope(v.x[1], v.y[1], v.x[2], v.y[2]);
+  return t;
+}
+
+/// The edge that begins at (xa, ya), from row `row` on.
+HWY_INLINE LaneEdge make_lane_edge(const LaneSlope& slope, I32 xa, I32 ya, I32 strip_left, I32 row) {
+  const auto d = DI32();
+  const I32 half = hn::Set(d, 128);
+  const I32 x = hn::Sub(xa, hn::Add(hn::ShiftLeft<8>(strip_left), half));
+  const I32 y = hn::Sub(hn::Add(hn::ShiftLeft<8>(row), half), ya);
+  const I32 n = hn::Add(hn::Mul(slope.dy, x), hn::Mul(slope.dx, y));
+  const I32 c = hn::ShiftRight<8>(hn::Add(n, hn::Set(d, 255)));
+  const I32 k = hn::Add(hn::Add(c, c), hn::Sub(slope.dy, hn::Set(d, 1)));
+  return {hn::ConvertTo(DF32(), k), slope.step, slope.scale};
+}
+
+/// The setup of the triangles moved by `shift`. Moving changes neither extents nor slopes, so float_decides() holds.
+template <class Shift>
+HWY_INLINE LaneSetup make_lane_setup(const LaneTriangle& t, const Shift& shift) {
+  const I32 x0 = shift.x(t.x[0]), x1 = shift.x(t.x[1]);
+  const I32 y0 = shift.y(t.y[0]), y1 = shift.y(t.y[1]);
   LaneSetup s;
-  s.left = first_sample(hn::Min(hn::Min(v.x[0], v.x[1]), v.x[2]));
-  s.right = first_sample(hn::Max(hn::Max(v.x[0], v.x[1]), v.x[2]));
+  s.left = first_sample(shift.x(t.leftmost));
+  s.right = first_sample(shift.x(t.rightmost));
   s.strip_left = hn::And(s.left, hn::Set(DI32(), -kStripWidth));
-  s.top = first_sample(v.y[0]);
-  s.middle = first_sample(v.y[1]);
-  s.bottom = first_sample(v.y[2]);
-  s.longer = make_lane_edge(v.x[0], v.y[0], v.x[2], v.y[2], s.strip_left, s.top);
-  s.upper = make_lane_edge(v.x[0], v.y[0], v.x[1], v.y[1], s.strip_left, s.top);
-  s.lower = make_lane_edge(v.x[1], v.y[1], v.x[2], v.y[2], s.strip_left, s.middle);
+  s.top = first_sample(y0);
+  s.middle = first_sample(y1);
+  s.bottom = first_sample(shift.y(t.y[2]));
+  s.longer = make_lane_edge(t.longer, x0, y0, s.strip_left, s.top);
+  s.upper = make_lane_edge(t.upper, x0, y0, s.strip_left, s.top);
+  s.lower = make_lane_edge(t.lower, x1, y1, s.strip_left, s.middle);
   return s;
 }
 
@@ -154,13 +194,41 @@ HWY_INLINE void add_group(const SmallGroup& group, std::uint64_t straddling, con
   }
 }
 
+/// Calls row(i, count0, count1, live) for each of `row_count` rows, from the top on, of triangles inside the target;
+/// `live`: the lanes that have that row. `rows`: their numbers of rows, of which `row_count` is the largest.
+template <class Row>
+HWY_INLINE void walk_rows(const LaneSetup& s, I32 rows, int row_count, const Row& row) {
+  const auto di = DI32();
+  const I32 middle = hn::Sub(s.middle, s.top);
+  const M32 no_upper = hn::Lt(middle, hn::Set(di, 1));
+  F32 longer = s.longer.k;
+  F32 shorter = hn::IfThenElse(cast(no_upper), s.lower.k, s.upper.k);
+  F32 step = hn::IfThenElse(cast(no_upper), s.lower.step, s.upper.step);
+  F32 scale = hn::IfThenElse(cast(no_upper), s.lower.scale, s.upper.scale);
+  I32 number = hn::Zero(di);
+  for (int i = 0; i < row_count; ++i) {
+    const auto at_middle = cast(hn::Eq(number, middle));
+    shorter = hn::IfThenElse(at_middle, s.lower.k, shorter);
+    step = hn::IfThenElse(at_middle, s.lower.step, step);
+    scale = hn::IfThenElse(at_middle, s.lower.scale, scale);
+    row(i, round_count(longer, s.longer.scale), round_count(shorter, scale), hn::Lt(number, rows));
+    longer = hn::Add(longer, s.longer.step);
+    shorter = hn::Add(shorter, step);
+    number = hn::Add(number, hn::Set(di, 1));
+  }
+}
+
+/// Rows of the lanes in `small` that have any column.
+HWY_INLINE I32 filled_rows(const LaneSetup& s, M32 small) {
+  return hn::IfThenElseZero(hn::And(small, hn::Gt(s.right, s.left)), hn::Sub(s.bottom, s.top));
+}
+
 /// Draws the lanes in `small`, each inside the target. `base`: of each lane, where its strips begin.
 HWY_INLINE void draw_small(const LaneSetup& s, M32 small, I32 base, const Strips& strips) {
   const auto di = DI32();
   SmallGroup group;
   const I32 zero = hn::Zero(di);
-  const M32 filled = hn::And(small, hn::Gt(s.right, s.left));
-  const I32 rows = hn::IfThenElseZero(filled, hn::Sub(s.bottom, s.top));
+  const I32 rows = filled_rows(s, small);
   const int row_count = hn::GetLane(hn::MaxOfLanes(di, rows));
   if (row_count <= 0) return;
   const I32 strip = hn::ShiftRight<5>(s.left);
@@ -169,22 +237,7 @@ HWY_INLINE void draw_small(const LaneSetup& s, M32 small, I32 base, const Strips
   hn::Store(hn::IfThenElseZero(hn::Gt(rows, zero), offset), di, group.offset);
   const M32 straddles = hn::And(hn::Gt(rows, zero), hn::Gt(hn::Sub(s.right, s.strip_left), hn::Set(di, kStripWidth)));
   const std::uint64_t straddling = bits_of(straddles);
-
-  const I32 middle = hn::Sub(s.middle, s.top);
-  const M32 no_upper = hn::Lt(middle, hn::Set(di, 1));
-  F32 longer = s.longer.k;
-  F32 shorter = hn::IfThenElse(cast(no_upper), s.lower.k, s.upper.k);
-  F32 step = hn::IfThenElse(cast(no_upper), s.lower.step, s.upper.step);
-  F32 scale = hn::IfThenElse(cast(no_upper), s.lower.scale, s.upper.scale);
-  I32 row = zero;
-  for (int i = 0; i < row_count; ++i) {
-    const auto at_middle = cast(hn::Eq(row, middle));
-    shorter = hn::IfThenElse(at_middle, s.lower.k, shorter);
-    step = hn::IfThenElse(at_middle, s.lower.step, step);
-    scale = hn::IfThenElse(at_middle, s.lower.scale, scale);
-    const I32 count0 = round_count(longer, s.longer.scale);
-    const I32 count1 = round_count(shorter, scale);
-    const M32 live = hn::Lt(row, rows);
+  walk_rows(s, rows, row_count, [&](int i, I32 count0, I32 count1, M32 live) HWY_ATTR {
     const std::size_t at = static_cast<std::size_t>(i) * kLanes;
     hn::Store(keep(live, hn::Xor(bits_from(count0), bits_from(count1))), DU32(), group.first_strip + at);
     if (straddling != 0) {
@@ -193,10 +246,7 @@ HWY_INLINE void draw_small(const LaneSetup& s, M32 small, I32 base, const Strips
       const I32 right1 = hn::Max(hn::Sub(count1, width), zero);
       hn::Store(keep(live, hn::Xor(bits_from(right0), bits_from(right1))), DU32(), group.second_strip + at);
     }
-    longer = hn::Add(longer, s.longer.step);
-    shorter = hn::Add(shorter, step);
-    row = hn::Add(row, hn::Set(di, 1));
-  }
+  });
   // Rows up to the next even number are added.
   if (row_count % 2 != 0) {
     const std::size_t at = static_cast<std::size_t>(row_count) * kLanes;

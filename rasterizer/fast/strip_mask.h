@@ -5,11 +5,13 @@
 // which one vector of N lanes takes, aligned or not.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "rasterizer/sample_pattern.h"
 #include "rasterizer/target.h"
 
 namespace edgecase::rasterizer {
@@ -49,25 +51,35 @@ struct StripLayout {
   constexpr std::size_t allocated_words() const { return words() + stride; }
 };
 
-/// Owns a mask of one sample a pixel, all clear at first. Bits right of the target in its last strip are no
-/// pixels: what they hold is unspecified.
+/// Owns a mask, all clear at first: a plane of strips for each sample of a pixel. Bits right of the target in its last
+/// strip are no pixels: what they hold is unspecified.
 class StripMask {
  public:
-  explicit StripMask(const Target& target)
-      : target_(target), layout_(target), blocks_(layout_.allocated_words() / kMaxLanes) {}
+  /// `samples`: of a pixel, 1 to kMaxSamples.
+  explicit StripMask(const Target& target, int samples = 1)
+      : target_(target),
+        samples_(samples),
+        layout_(target),
+        blocks_(((static_cast<std::size_t>(samples) - 1) * layout_.words() + layout_.allocated_words()) / kMaxLanes) {
+    assert(samples >= 1 && samples <= kMaxSamples);
+  }
 
   const Target& target() const { return target_; }
+  int samples() const { return samples_; }
   /// Words from strips().words on that belong to the mask: pixels and what lies between them.
-  std::size_t allocated_words() const { return layout_.allocated_words(); }
+  std::size_t allocated_words() const { return blocks_.size() * kMaxLanes; }
 
   void clear() { blocks_.assign(blocks_.size(), Block{}); }
 
-  Strips strips() {
-    return {blocks_.data()->words, layout_.stride, layout_.count, static_cast<int>(target_.height().value())};
+  Strips strips(int sample = 0) {
+    return {blocks_.data()->words + static_cast<std::size_t>(sample) * plane_words(), layout_.stride, layout_.count,
+            static_cast<int>(target_.height().value())};
   }
+  /// From one sample's strips to those of the next.
+  std::size_t plane_words() const { return layout_.words(); }
 
-  /// Writes the mask as a Mask lays it out, rows top to bottom in words of 64 pixels, bits right of the target zero, to
-  /// `rows`, which must have target().mask_words() words.
+  /// Writes the mask as a Mask lays it out, rows top to bottom in words of 64 samples, bits right of the target zero,
+  /// to `rows`, which must have target().mask_words(samples()) words.
   void to_rows(std::span<std::uint64_t> rows) const;
 
  private:
@@ -75,6 +87,7 @@ class StripMask {
     std::uint32_t words[kMaxLanes] = {};
   };
   Target target_;
+  int samples_;
   StripLayout layout_;
   std::vector<Block> blocks_;
 };

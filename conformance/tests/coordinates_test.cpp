@@ -1,0 +1,65 @@
+#include "conformance/scene/coordinates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "conformance/scene/grid.h"
+#include "conformance/subjects/enclosing_viewport.h"
+
+namespace edgecase::conformance {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// `count` triangles whose coordinates are all `filler`, but for one.
+std::vector<Triangle> with(std::size_t count, std::size_t place, float value, float filler = 1) {
+  std::vector<Triangle> triangles(count, {{{filler, filler}, {filler, filler}, {filler, filler}}});
+  Position& position = triangles[place / 6][place / 2 % 3];
+  (place % 2 == 0 ? position.x : position.y) = value;
+  return triangles;
+}
+
+TEST(Coordinates, TheLargestAndTheLeastMagnitudeAreFoundWhereverTheyAre) {
+  EXPECT_EQ(magnitudes({}).largest, 0);
+  EXPECT_EQ(magnitudes({}).least_above_zero, kInfinity);
+  for (std::size_t count = 1; count < 20; ++count) {
+    for (std::size_t place = 0; place < 6 * count; ++place) {
+      ASSERT_EQ(magnitudes(with(count, place, -7)).largest, 7) << count << ' ' << place;
+      ASSERT_EQ(magnitudes(with(count, place, -0.5f)).least_above_zero, 0.5f) << count << ' ' << place;
+      ASSERT_EQ(magnitudes(with(count, place, 0)).least_above_zero, 1) << count << ' ' << place;
+      ASSERT_TRUE(std::isnan(magnitudes(with(count, place, kNan)).largest)) << count << ' ' << place;
+    }
+  }
+  EXPECT_EQ(magnitudes(with(3, 17, -kInfinity)).largest, kInfinity);
+}
+
+TEST(Coordinates, OnePointOffTheGridIsFoundWhereverItIs) {
+  for (std::size_t count = 1; count < 20; ++count) {
+    for (std::size_t place = 0; place < 6 * count; ++place) {
+      ASSERT_TRUE(all_on_grid(with(count, place, -3.25f), 256));
+      ASSERT_FALSE(all_on_grid(with(count, place, -3.25f), 2));
+      ASSERT_FALSE(all_on_grid(with(count, place, std::nextafter(-3.25f, 0.0f)), 256));
+    }
+  }
+  for (const float beyond : {kNan, kInfinity, -kInfinity, 16385.0f, -1e9f, 1e38f}) {
+    EXPECT_FALSE(all_on_grid(with(2, 7, beyond), 256)) << beyond;
+  }
+  EXPECT_EQ(grid_point({-3.25f, 16383.5f}, 256), (GridPoint{-832, 4194176}));
+}
+
+TEST(Coordinates, AViewportCarriesTheirMagnitudesExactlyIfItCarriesEach) {
+  const EnclosingViewport viewport(8192);
+  const float least = std::numeric_limits<float>::min() * 8192;
+  for (const float value : {0.0f, 8192.0f, -8192.0f, std::nextafter(8192.0f, 9000.0f), 0.1f, least, -least,
+                            std::nextafter(least, 0.0f), kNan, kInfinity, std::numeric_limits<float>::denorm_min()}) {
+    EXPECT_EQ(viewport.carries(magnitudes(with(3, 11, value))), viewport.carries(value)) << value;
+  }
+}
+
+}  // namespace
+}  // namespace edgecase::conformance

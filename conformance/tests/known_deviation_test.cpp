@@ -1,0 +1,127 @@
+// Known deviations: which subjects they are found for, and that they are judged both ways, in the window and in clip
+// space: a subject that is no longer wrong where it is predicted to be fails as surely as one that is wrong elsewhere.
+#include "conformance/runner/known_deviations.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "conformance/generators/generator.h"
+#include "conformance/runner/judge.h"
+#include "conformance/subjects/registry.h"
+
+namespace edgecase::conformance {
+namespace {
+
+const std::vector<KnownDeviation>& listed() {
+  static const auto list =
+      load_known_deviations(std::filesystem::path(EDGECASE_SOURCE_DIR) / "conformance/known_deviations.json").value();
+  return list;
+}
+
+enum class Wrap {
+  kept,      ///< as llvmpipe has it
+  repaired,  ///< as the rules have it
+  spread,    ///< one more triangle of a scene is lost
+};
+
+// Covers what llvmpipe covers, by our models and rasterizer.
+class Llvmpipe : public Subject {
+ public:
+  explicit Llvmpipe(Wrap wrap) : wrap_(wrap) { info_.clip = true; }
+
+  const SubjectInfo& info() const override { return info_; }
+  std::optional<std::string> refusal(const Scene&) const override { return std::nullopt; }
+
+  tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override {
+    if (!scene.clip) return draw_window(scene, masks);
+    const WindowScene window = window_scene(lavapipe_model(), scene);
+    MaskBatch parts;
+    auto drawn = draw_window(window.scene, parts);
+    unite(window, parts, masks);
+    return drawn;
+  }
+
+ private:
+  tl::expected<void, Error> draw_window(const Scene& scene, MaskBatch& masks) {
+    auto drawn = rasterizer_->draw(scene, masks);
+    const KnownDeviation& deviation = *find_known_deviation(listed(), "lavapipe", "");
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+      if (wrap_ != Wrap::repaired && deviation.may_concern(scene.setting, scene.triangles[i])) {
+        deviation.predict(scene.setting, scene.triangles[i], masks[i]);
+      } else if (wrap_ == Wrap::spread && !lost_ &&
+                 std::ranges::any_of(masks[i], [](auto word) { return word != 0; })) {
+        std::ranges::fill(masks[i], 0);
+        lost_ = true;
+      }
+    }
+    return drawn;
+  }
+
+  Wrap wrap_;
+  bool lost_ = false;
+  SubjectInfo info_;
+  std::unique_ptr<Subject> rasterizer_ = make_subject("edgecase").value();
+};
+
+Outcome judged(Wrap wrap, const char* name) {
+  const Generator& generator = *find_generator(name);
+  Batch batch;
+  batch.scene.setting = generator.setting;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    batch.parts.push_back({i, triangle_count(batch.scene)});
+    append_scene(generator, 1, i, batch.scene);
+  }
+  Llvmpipe subject(wrap);
+  Reference reference(make_subject("edgecase").value(), lavapipe_model());
+  Judge judge(subject, reference, find_known_deviation(listed(), "lavapipe", ""));
+  Outcome outcome;
+  const auto result = judge.judge(batch, 0, outcome);
+  EXPECT_TRUE(result) << result.error().message;
+  return outcome;
+}
+
+class JudgedBothWays : public testing::TestWithParam<const char*> {};
+
+TEST_P(JudgedBothWays, IsKnownOnlyAsPredicted) {
+  const Outcome kept = judged(Wrap::kept, GetParam());
+  EXPECT_GT(kept.known_triangles, 20U);
+  EXPECT_EQ(kept.known_triangles, kept.triangles.wrong_triangles);
+  EXPECT_EQ(kept.unexplained, 0U);
+
+  const Outcome repaired = judged(Wrap::repaired, GetParam());
+  EXPECT_TRUE(repaired.triangles.all_right());
+  EXPECT_EQ(repaired.known_triangles, 0U);
+  EXPECT_EQ(repaired.unexplained, kept.known_triangles);
+
+  const Outcome spread = judged(Wrap::spread, GetParam());
+  EXPECT_EQ(spread.known_triangles, kept.known_triangles);
+  EXPECT_GE(spread.unexplained, 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Generators, JudgedBothWays,
+                         testing::Values("far_corner", "far_corner_samples4", "far_rectangle", "clip_far",
+                                         "clip_far_samples4"));
+
+// Its triangles are as predicted, and so is what that does to the mesh.
+TEST(KnownDeviation, ExplainsTornMeshes) {
+  const Outcome kept = judged(Wrap::kept, "far_rectangle");
+  EXPECT_GT(kept.meshes.missing + kept.meshes.doubled, 0U);
+  EXPECT_EQ(kept.unexplained, 0U);
+}
+
+TEST(KnownDeviation, IsFoundByNameOrByDevice) {
+  const char* device = "llvmpipe (LLVM 19.1.7, 256 bits), llvmpipe Mesa 25.0.7";
+  for (const char* subject : {"lavapipe", "lavapipe:bgra8", "osmesa-llvmpipe", "vulkan:build/some/icd.json"}) {
+    const KnownDeviation* found = find_known_deviation(listed(), subject, device);
+    ASSERT_NE(found, nullptr) << subject;
+    EXPECT_FALSE(found->replaces_rules());
+  }
+  EXPECT_EQ(find_known_deviation(listed(), "vulkan:build/some/icd.json", "SwiftShader Device (Subzero)"), nullptr);
+  EXPECT_EQ(find_known_deviation(listed(), "swiftshader", "SwiftShader Device (Subzero)"), nullptr);
+  EXPECT_TRUE(find_known_deviation(listed(), "osmesa-softpipe", "softpipe")->replaces_rules());
+}
+
+}  // namespace
+}  // namespace edgecase::conformance

@@ -1,0 +1,125 @@
+// How many samples each triangle covers, from the counts of its rows alone: no mask is drawn.
+#include "rasterizer/fast/union-inl.h"
+
+#if defined(EDGECASE_FAST_COUNTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGECASE_FAST_COUNTS_INL_H_
+#undef EDGECASE_FAST_COUNTS_INL_H_
+#else
+#define EDGECASE_FAST_COUNTS_INL_H_
+#endif
+
+#include <algorithm>
+
+HWY_BEFORE_NAMESPACE();
+namespace edgecase::rasterizer::HWY_NAMESPACE {
+
+/// Of the lanes in `small`, each inside the target; 0 for the others.
+HWY_INLINE I32 count_small(const LaneSetup& s, M32 small) {
+  const auto d = DI32();
+  const I32 rows = filled_rows(s, small);
+  I32 sum = hn::Zero(d);
+  walk_rows(s, rows, hn::GetLane(hn::MaxOfLanes(d, rows)), [&](int, I32 count0, I32 count1, M32 live) HWY_ATTR {
+    sum = hn::Add(sum, hn::IfThenElseZero(live, hn::Abs(hn::Sub(count0, count1))));
+  });
+  return sum;
+}
+
+/// Of a stored triangle on a target of that size.
+HWY_INLINE std::uint64_t count_medium(const StoredSetup& s, std::size_t lane, int width, int height) {
+  const auto d = DI32();
+  const int begin = std::max(-s.top[lane], 0);
+  const int end = std::min(s.rows[lane], height - s.top[lane]);
+  const I32 left = hn::Set(d, s.strip_left[lane]);
+  const auto in_target = [&](I32 count) HWY_ATTR {
+    return hn::Min(hn::Max(hn::Add(count, left), hn::Zero(d)), hn::Set(d, width));
+  };
+  const RowCounts rows(s, lane);
+  I32 sum = hn::Zero(d);
+  for (int first = begin; first < end; first += static_cast<int>(kLanes)) {
+    I32 count0, count1;
+    rows.at(first, hn::Set(d, end), count0, count1);
+    sum = hn::Add(sum, hn::Abs(hn::Sub(in_target(count0), in_target(count1))));
+  }
+  return static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(d, sum)));
+}
+
+/// Of any triangle.
+inline std::uint64_t count_large(const FixedTriangle<ShiftedFormat>& triangle, int width, int height) {
+  Point v[3];
+  for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value(), triangle[i].y.value()};
+  sort_by_y(v[0], v[1]);
+  sort_by_y(v[1], v[2]);
+  sort_by_y(v[0], v[1]);
+  const auto first_row = [&](const Point& p) { return std::clamp((p.y + 127) >> 8, 0, height); };
+  const int top = first_row(v[0]), middle = first_row(v[1]), bottom = first_row(v[2]);
+  if (top >= bottom) return 0;
+  std::int64_t sum = 0;
+  const auto count_rows = [&](Crossings& longer, Crossings shorter, int rows) {
+    const auto in_target = [&](std::int64_t t) { return std::clamp<std::int64_t>(t >> kFractionBits, 0, width); };
+    std::int64_t difference = 0;  // of one sign in all rows, as the edges do not cross
+    for (int row = 0; row < rows; ++row, longer.skip(1), shorter.skip(1)) {
+      difference += in_target(longer.t) - in_target(shorter.t);
+    }
+    sum += difference < 0 ? -difference : difference;
+  };
+  Crossings longer(v[0], v[2], top, bottom - top);
+  if (top < middle) count_rows(longer, Crossings(v[0], v[1], top, middle - top), middle - top);
+  if (middle < bottom) count_rows(longer, Crossings(v[1], v[2], middle, bottom - middle), bottom - middle);
+  return static_cast<std::uint64_t>(sum);
+}
+
+/// Adds those of kLanes triangles at one plane's samples to `counts`.
+template <class Planes>
+HWY_INLINE void count_plane(const SnappedTriangle* triangles, const LaneSetup& setup, const Planes& planes, int plane,
+                            int width, int height, std::uint64_t* counts) {
+  const Ways ways = ways_of(setup, width, height);
+  HWY_ALIGN std::int32_t small[kMaxLanes];
+  hn::Store(count_small(setup, ways.small), DI32(), small);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) counts[lane] += static_cast<std::uint64_t>(small[lane]);
+  if (ways.others == 0) return;
+  StoredSetup stored;
+  if ((ways.others & ways.medium) != 0) store(setup, stored);
+  for (std::uint64_t lanes = ways.others; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    counts[lane] += ways.medium >> lane & 1 ? count_medium(stored, lane, width, height)
+                                            : count_large(planes.shifted(triangles[lane], plane), width, height);
+  }
+}
+
+template <class Planes>
+HWY_NOINLINE void count_groups(const SnappedTriangle* triangles, std::size_t groups, const Planes& planes, int width,
+                               int height, std::uint64_t* counts) {
+  for (; groups != 0; --groups, triangles += kLanes, counts += kLanes) {
+    std::fill_n(counts, kLanes, std::uint64_t{0});
+    const LaneTriangle lanes = make_lane_triangle(load_vertices(triangles));
+    for (int plane = 0; plane < planes.count(); ++plane) {
+      count_plane(triangles, make_lane_setup(lanes, planes.shift(plane)), planes, plane, width, height, counts);
+    }
+  }
+}
+
+template <class Planes>
+HWY_INLINE void count_list(std::span<const SnappedTriangle> triangles, const Planes& planes, int width, int height,
+                           std::uint64_t* counts) {
+  in_groups(triangles, [&](const SnappedTriangle* group, std::size_t first, std::size_t groups) HWY_ATTR {
+    if (first + groups * kLanes <= triangles.size()) {
+      return count_groups(group, groups, planes, width, height, counts + first);
+    }
+    std::uint64_t last[kMaxLanes];
+    count_groups(group, groups, planes, width, height, last);
+    std::copy_n(last, triangles.size() - first, counts + first);
+  });
+}
+
+inline void count_each(std::span<const SnappedTriangle> triangles, int width, int height, std::uint64_t* counts) {
+  count_list(triangles, CentrePlane(), width, height, counts);
+}
+
+inline void count_each_in(std::span<const SnappedTriangle> triangles, const Region& region, std::uint64_t* counts) {
+  count_list(triangles, RegionPlanes{region, 0}, region.right, region.height, counts);
+}
+
+}  // namespace edgecase::rasterizer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
