@@ -14,6 +14,7 @@
 #include "conformance/bench/growth.h"
 #include "conformance/bench/plot.h"
 #include "conformance/bench/progress.h"
+#include "conformance/bench/scaling.h"
 #include "conformance/scene/nearest_name.h"
 
 namespace edgecase::conformance {
@@ -102,21 +103,39 @@ tl::expected<void, Error> run(const BenchOptions& options) {
   return {};
 }
 
-tl::expected<void, Error> run_growth(const BenchOptions& options) {
+/// Makes the folder and finds that `json` in it can be written to; the path of it.
+tl::expected<std::string, Error> prepare_folder(const std::filesystem::path& folder, const char* json) {
   std::error_code error;
-  std::filesystem::create_directories(options.growth, error);
+  std::filesystem::create_directories(folder, error);
   if (error) {
     return tl::unexpected(
-        Error{ErrorKind::bad_input, fmt::format("cannot make the folder {}: {}", options.growth, error.message())});
+        Error{ErrorKind::bad_input, fmt::format("cannot make the folder {}: {}", folder.string(), error.message())});
   }
+  std::string path = (folder / json).string();
+  if (auto writable = check_writable(path); !writable) return tl::unexpected(writable.error());
+  return path;
+}
+
+tl::expected<void, Error> run_scaling(const BenchOptions& options) {
+  const auto json = prepare_folder(options.scaling, "scaling.json");
+  if (!json) return tl::unexpected(json.error());
+  const auto points = measure_scaling(options.quick ? kQuickScaling : kThoroughScaling, options.seed);
+  if (!points) return tl::unexpected(points.error());
+  fmt::print("{}", scaling_table(*points));
+  if (auto written = write_file(*json, scaling_json(*points)); !written) return written;
+  const std::string picture = (std::filesystem::path(options.scaling) / "scaling.png").string();
+  return run_gnuplot(scaling_plot_program(*points, picture), picture);
+}
+
+tl::expected<void, Error> run_growth(const BenchOptions& options) {
   const std::filesystem::path folder = options.growth;
-  const std::string json = (folder / "growth.json").string();
-  if (auto writable = check_writable(json); !writable) return writable;
+  const auto json = prepare_folder(folder, "growth.json");
+  if (!json) return tl::unexpected(json.error());
   const auto points =
       measure_growth(options.quick ? kQuickGrowth : kThoroughGrowth, options.seed, options.make_subject);
   if (!points) return tl::unexpected(points.error());
   fmt::print("{}", growth_table(*points));
-  if (auto written = write_file(json, growth_json(*points)); !written) return written;
+  if (auto written = write_file(*json, growth_json(*points)); !written) return written;
   for (const GrowthAxis& axis : growth_axes()) {
     const std::string path = (folder / fmt::format("growth-{}.png", axis.name)).string();
     if (auto drawn = run_gnuplot(growth_plot_program(axis, *points, path), path); !drawn) return drawn;
@@ -144,7 +163,10 @@ tl::expected<std::vector<BenchRow>, Error> bench(const BenchOptions& options) {
 }
 
 int bench_command(const BenchOptions& options) {
-  if (const auto done = options.growth.empty() ? run(options) : run_growth(options); !done) {
+  const auto done = !options.scaling.empty()  ? run_scaling(options)
+                    : !options.growth.empty() ? run_growth(options)
+                                              : run(options);
+  if (!done) {
     fmt::print(stderr, "edgecase: {}\n", done.error().message);
     return exit_status(done.error().kind);
   }

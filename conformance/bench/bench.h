@@ -28,6 +28,8 @@ struct BenchOptions {
   /// Measures growth instead, into this folder: growth.json and a picture for each axis, see growth.h. Workloads,
   /// subjects, json and plot are then not looked at.
   std::string growth;
+  /// Measures and models the threads instead, into this folder: scaling.json and scaling.png, see scaling.h.
+  std::string scaling;
   std::uint64_t seed = 1;
   /// Finds a subject whose name is no built-in contender's.
   std::function<tl::expected<std::unique_ptr<Subject>, Error>(const std::string&)> make_subject;

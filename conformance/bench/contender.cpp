@@ -104,6 +104,7 @@ std::vector<std::unique_ptr<Contender>> built_in_contenders() {
     contenders.push_back(make_fast_contender(fmt::format("edgecase:{}", rasterizer::name_of(isa)),
                                              *rasterizer::FastRasterizer::make(isa)));
   }
+  contenders.push_back(make_threads_contender());
   for (const auto& member : rasterizer::family_members())
     contenders.push_back(std::make_unique<FamilyContender>(member));
   for (const auto& info : inexact_subjects()) contenders.push_back(std::make_unique<InexactContender>(info));

@@ -41,4 +41,7 @@ std::unique_ptr<Contender> make_vectorized_contender(int bits);
 /// The fast path on one instruction set, all triangles into one strip mask.
 std::unique_ptr<Contender> make_fast_contender(std::string_view name, const rasterizer::FastRasterizer& fast);
 
+/// The same on as many threads as the machine has processors.
+std::unique_ptr<Contender> make_threads_contender();
+
 }  // namespace edgecase::conformance

@@ -2,9 +2,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "conformance/bench/contenders.h"
+#include "rasterizer/threads/threads.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -57,6 +59,10 @@ class Fast : public Contender {
     }
   }
 
+ protected:
+  std::span<const FixedTriangle> triangles() const { return triangles_; }
+  StripMask& united() { return united_; }
+
  private:
   std::string name_;
   rasterizer::FastRasterizer fast_;
@@ -66,7 +72,24 @@ class Fast : public Contender {
   StripMask single_{target_of(Setting{})};
 };
 
+class Threads : public Fast {
+ public:
+  Threads()
+      : Fast("edgecase:threads", rasterizer::FastRasterizer()),
+        threaded_({}, std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
+  Clock clock() const override { return Clock::wall; }
+  tl::expected<void, Error> draw() override {
+    threaded_.cover_union(triangles(), united());
+    return {};
+  }
+
+ private:
+  rasterizer::ThreadedRasterizer threaded_;
+};
+
 }  // namespace
+
+std::unique_ptr<Contender> make_threads_contender() { return std::make_unique<Threads>(); }
 
 std::unique_ptr<Contender> make_fast_contender(std::string_view name, const rasterizer::FastRasterizer& fast) {
   return std::make_unique<Fast>(name, fast);

@@ -199,9 +199,10 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.doubled = outcome.meshes.doubled;
   result.known_triangles = outcome.known_triangles;
   result.unpredicted = outcome.unpredicted;
+  result.may = outcome.may;
   result.cracks = outcome.cracks;
   if (const Finding* first = first_to_show(outcome)) result.first = first_wrong(*first, origin_of(*first, run, plan));
-  result.reason = reason(run, find_known_deviation(plan.known_deviations, run.subject, run.device));
+  result.reason = reason(run, excuse(plan, run.subject, run.device));
   result.seconds = run.trial.seconds;
   result.subject_seconds = run.trial.subject_seconds;
   return result;
@@ -212,6 +213,9 @@ Case reproduction(const Finding& finding, const Origin& origin, const Scene& sce
   result.about = fmt::format("{} deviates: {}", origin.subject, caption(finding));
   result.source = origin.where;
   result.scene = scene;
+  result.rule_set = finding.rule_set;
+  // What was expected are the samples nearest to the observed ones among those that are legal: no demand.
+  if (!finding.rule_set->exact()) return result;
   const MaskLayout layout(scene.setting);
   if (scene.clip || std::max(layout.target.width, layout.target.height) > kMostReadableExtent) return result;
 

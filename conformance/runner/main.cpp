@@ -5,6 +5,7 @@
 
 #include "conformance/bench/bench.h"
 #include "conformance/runner/commands.h"
+#include "conformance/scene/rule_set.h"
 #include "conformance/subjects/registry.h"
 
 namespace {
@@ -27,6 +28,12 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--category", options.categories, "Only what is of this category; may be repeated")
       ->type_name("C")
       ->allow_extra_args(false);
+  std::vector<std::string> sets;
+  for (const RuleSet& set : kRuleSets) sets.emplace_back(set.name);
+  run->add_option("--rules", options.rules, "Judge by what that specification says, and leave open what it does")
+      ->type_name("SET")
+      ->check(CLI::IsMember(sets))
+      ->capture_default_str();
   run->add_option("--count", options.count, "Triangles of each generator, at least; scenes are whole")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}))
@@ -124,6 +131,15 @@ void add_bench(CLI::App& app, BenchOptions& options) {
           "Instead, measure time against the number, area, range and samples of triangles and the target's size, "
           "into this folder")
       ->type_name("DIR")
+      ->excludes("--workload")
+      ->excludes("--subject")
+      ->excludes("--json")
+      ->excludes("--plot");
+  bench
+      ->add_option("--scaling", options.scaling,
+                   "Instead, model and measure the speed of 1 to 64 threads, into this folder")
+      ->type_name("DIR")
+      ->excludes("--growth")
       ->excludes("--workload")
       ->excludes("--subject")
       ->excludes("--json")

@@ -97,6 +97,7 @@ tl::expected<void, Error> select(const DataFiles& data, const RunOptions& option
   for (const Case& c : selection.cases) plan.testcases.push_back({&c, nullptr, nullptr});
   plan.testcases.insert(plan.testcases.end(), chosen->begin(), chosen->end());
   if (auto kept = keep_categories(data, options.categories, plan.testcases); !kept) return kept;
+  plan.rule_set = find_rule_set(options.rules);
   plan.count = options.count;
   plan.seed = options.seed;
   plan.jobs = options.jobs;
@@ -137,6 +138,7 @@ int run_command(const DataFiles& data, const RunOptions& options) {
   Report report;
   report.version = EDGECASE_VERSION;
   report.seed = plan.seed;
+  report.rules = plan.rule_set->name;
   for (const RunResult& result : *runs) report.results.push_back(describe_result(result, plan));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 

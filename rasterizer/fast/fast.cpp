@@ -166,5 +166,15 @@ void FastRasterizer::cover_first_in(Triangles triangles, const Region& region, V
                            of_region(first, region));
 }
 
+void FastRasterizer::cover_tile(Triangles triangles, TileMask& mask) const {
+  kernels_->cover_tile(triangles, mask.tile(), mask.strips());
+}
+
+void FastRasterizer::find_reach(Triangles triangles, const TileGrid& grid, std::span<std::uint64_t> words) const {
+  assert(words.size() >=
+         (triangles.size() + kReachBlock - 1) / kReachBlock * static_cast<std::size_t>(grid.columns() + grid.rows()));
+  kernels_->find_reach(triangles, grid, words.data());
+}
+
 }  // namespace edgecase::rasterizer
 #endif  // HWY_ONCE

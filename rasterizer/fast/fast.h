@@ -21,6 +21,8 @@
 #include <type_traits>
 
 #include "rasterizer/fast/strip_mask.h"
+#include "rasterizer/fast/tile_grid.h"
+#include "rasterizer/fast/tile_mask.h"
 #include "rasterizer/fast/visibility_buffer.h"
 #include "rasterizer/format.h"
 #include "rasterizer/sample_pattern.h"
@@ -72,6 +74,14 @@ class FastRasterizer {
   template <class Samples, class Clip>
   void cover_first(Triangles triangles, const View<Samples, Clip>& view, VisibilityBuffer& buffer,
                    std::uint32_t first_number = 0) const;
+
+  /// Adds the coverage of every triangle, as far as it lies in mask.tile(), to `mask`.
+  void cover_tile(Triangles triangles, TileMask& mask) const;
+
+  /// Which columns and rows of tiles the bounding boxes of triangles reach with a sample: for every kReachBlock
+  /// triangles grid.columns() + grid.rows() words, the columns' first, in which bit i is set if triangle i reaches that
+  /// column or row. A triangle reaches a tile if both bits are set. Writes all these words, which `words` has room for.
+  void find_reach(Triangles triangles, const TileGrid& grid, std::span<std::uint64_t> words) const;
 
   /// What a target's kernels look like from outside.
   struct Kernels;

@@ -2,6 +2,7 @@
 #include "rasterizer/fast/counts-inl.h"
 #include "rasterizer/fast/first-inl.h"
 #include "rasterizer/fast/rows-inl.h"
+#include "rasterizer/fast/tiles-inl.h"
 
 #if defined(EDGECASE_FAST_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGECASE_FAST_KERNELS_INL_H_
@@ -101,7 +102,7 @@ inline void cover_each_in(std::span<const SnappedTriangle> triangles, const Regi
 
 inline constexpr FastRasterizer::Kernels kKernels{&cover_union,    &cover_union_in, &cover_each,  &cover_each_in,
                                                   &count_each,     &count_each_in,  &cover_first, &cover_first_in,
-                                                  &strips_to_rows, &region_to_rows};
+                                                  &strips_to_rows, &region_to_rows, &cover_tile,  &find_reach};
 
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -47,6 +47,9 @@ struct FastRasterizer::Kernels {
                          const FirstTriangles&);
   void (*strips_to_rows)(const Strips&, std::uint64_t last_word, std::uint64_t* rows);
   void (*region_to_rows)(const Strips&, std::size_t apart, const Region&, std::size_t row_words, std::uint64_t* rows);
+  /// The strips are a TileMask's.
+  void (*cover_tile)(Triangles, const Tile&, const Strips&);
+  void (*find_reach)(Triangles, const TileGrid&, std::uint64_t* words);
 };
 
 }  // namespace edgecase::rasterizer

@@ -108,7 +108,8 @@ static_assert(kBlockRows <= kRowsBelow);
 HWY_INLINE void draw_block(const StoredSetup& s, std::size_t lane, const Strips& strips) {
   const RowCounts rows(s, lane);
   const I32 end = hn::Set(DI32(), s.rows[lane]);
-  std::uint32_t* left = strips.words + s.top[lane] + static_cast<std::size_t>(s.strip_left[lane] >> 5) * strips.stride;
+  std::uint32_t* left =
+      strips.words + s.top[lane] + (s.strip_left[lane] >> 5) * static_cast<std::ptrdiff_t>(strips.stride);
   std::uint32_t* right = left + strips.stride;
   for (int first = 0; first < kBlockRows; first += static_cast<int>(kLanes)) {
     if (kLanes < kMaxLanes && first >= s.rows[lane]) break;

@@ -91,18 +91,29 @@ HWY_INLINE I32 inside(const LaneSetup& s, int width, int height) {
   return hn::Or(hn::Or(s.left, s.top), hn::Or(room_in(s.right, width), room_in(s.bottom, height)));
 }
 
-HWY_INLINE Ways ways_of(const LaneSetup& s, int width, int height) {
+/// The same for who draws into planes of another kind, with an overload of its own.
+template <class Planes>
+HWY_INLINE I32 inside(const Planes&, const LaneSetup& s, int width, int height) {
+  return inside(s, width, height);
+}
+
+/// `is_inside`: as from inside().
+HWY_INLINE Ways ways_of(const LaneSetup& s, I32 is_inside, int width, int height) {
   const auto d = DI32();
   const I32 columns = hn::Sub(s.right, s.left);
   const I32 rows = hn::Sub(s.bottom, s.top);
   const I32 fits = hn::Or(room_in(columns, kSmallColumns), room_in(rows, kSmallRows));
-  Ways ways{not_negative(hn::Or(inside(s, width, height), fits)), 0, 0};
+  Ways ways{not_negative(hn::Or(is_inside, fits)), 0, 0};
   if (hn::AllTrue(d, ways.small)) return ways;
   const I32 reaching_in = hn::Min(hn::Min(s.right, s.bottom), hn::Min(room_in(s.left, width), room_in(s.top, height)));
   const M32 visible = hn::Gt(hn::Min(reaching_in, hn::Min(columns, rows)), hn::Zero(d));
   ways.others = bits_of(hn::AndNot(ways.small, visible));
   ways.medium = bits_of(not_negative(hn::Or(room_in(columns, kMediumExtent), room_in(rows, kMediumExtent))));
   return ways;
+}
+
+HWY_INLINE Ways ways_of(const LaneSetup& s, int width, int height) {
+  return ways_of(s, inside(s, width, height), width, height);
 }
 
 // draw_small() reaches every lane's strips by an offset of 32 bits.
@@ -118,15 +129,15 @@ template <class Planes>
 HWY_INLINE void draw_plane(const SnappedTriangle* triangles, const LaneSetup& setup, const Planes& planes, int plane,
                            int width, std::size_t apart, const Strips& strips) {
   const auto d = DI32();
-  const Ways ways = ways_of(setup, width, strips.height);
+  const I32 is_inside = inside(planes, setup, width, strips.height);
+  const Ways ways = ways_of(setup, is_inside, width, strips.height);
   draw_small(setup, ways.small, hn::Mul(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(apart))), strips);
   if (ways.others == 0) return;
   StoredSetup stored;
   if ((ways.others & ways.medium) != 0) store(setup, stored);
   const I32 in_block = hn::Or(room_in(hn::Sub(setup.bottom, setup.top), kBlockRows),
                               room_in(hn::Sub(setup.right, setup.strip_left), kBlockColumns));
-  const std::uint64_t block =
-      ways.others & bits_of(not_negative(hn::Or(inside(setup, width, strips.height), in_block)));
+  const std::uint64_t block = ways.others & bits_of(not_negative(hn::Or(is_inside, in_block)));
   for (std::uint64_t lanes = block; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     Strips own = strips;

@@ -1,19 +1,28 @@
 // The union of a list of triangles, drawn by several threads: the same bits as one thread's, whatever their number.
 //
-// The list is cut into pieces that the threads take as they come free. Every thread but one draws into a mask of its
-// own, so that no two ever write to the same cache line; afterwards the masks are or-ed together, each thread its part
-// of the words. An or knows no order, which is why neither does the result.
+// The way of Giesen's and Larrabee's articles: the target is cut into tiles, the list into chunks. First every chunk is
+// binned: which tiles does each triangle reach (tiled_draw.h)? Then every tile is drawn from its bins. A thread that
+// finds no chunk left to bin goes on to the tiles at once, and waits for another's chunk only when it needs that
+// chunk's bins: there is no barrier. How many tiles, decides an estimate of what they cost (plan.h); it may be a single
+// one, which needs no bins.
 //
-// Coverage of a pixel is one bit, so a whole screen's mask fits into a core's second-level cache, and or-ing it costs
-// about as much as drawing one or two triangles of the screen's size. Sorting triangles into bins of tiles first would
-// read and write every triangle twice more, at a cost beyond that of drawing a small one. What bins would save is
-// memory: here, it is a mask for every thread.
+// Tiles are drawn in the order of falling work; towards the end, threads without a tile help with one that has much
+// left (agenda.h). What limits many threads:
+//   - before they start, a few us for the plan;
+//   - at the end, one part of a tile, 1/16 of a thread's share: on average half of that is lost;
+//   - in total, the triangles on tiles' borders, which are drawn twice, and a mask for each tile and each helper.
+// `edgecase bench --scaling` plays these tasks, with the times they take on one thread, through the agenda for up to
+// 64 threads. What it cannot show is threads that share a memory's bandwidth.
+//
+// No two threads write to a cache line at the same time: chunks have bins of their own, threads have masks of their
+// own, and a tile's part of the target begins and ends between cache lines (tile_grid.h) and is added to under a lock.
 #pragma once
 
 #include <memory>
 #include <span>
 
 #include "rasterizer/fast/fast.h"
+#include "rasterizer/threads/plan.h"
 
 namespace edgecase::rasterizer {
 
@@ -25,10 +34,12 @@ class ThreadedRasterizer {
   ThreadedRasterizer(ThreadedRasterizer&&) noexcept;
   ThreadedRasterizer& operator=(ThreadedRasterizer&&) noexcept;
 
-  /// Adds the coverage of every triangle to `mask`: their union. Keeps threads - 1 masks of the target's size for the
-  /// next call; allocates if it is the first for a target. Lists too short to be worth it are drawn by one thread. One
-  /// call at a time.
+  /// Adds the coverage of every triangle to `mask`: their union. Lists too short to be worth it are drawn by one
+  /// thread. Allocates. One call at a time.
   void cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask);
+
+  /// The same by a given plan, which must be for that list and target.
+  void cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask, const Plan& plan);
 
  private:
   struct State;

@@ -1,0 +1,195 @@
+#include "conformance/bench/scaling.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "conformance/bench/contenders.h"
+#include "conformance/bench/progress.h"
+#include "conformance/bench/workloads.h"
+#include "rasterizer/threads/agenda.h"
+#include "rasterizer/threads/threads.h"
+#include "rasterizer/threads/tiled_draw.h"
+
+namespace edgecase::conformance {
+namespace {
+
+using FixedTriangle = rasterizer::FixedTriangle<rasterizer::Format16_8>;
+using rasterizer::Plan;
+using rasterizer::StripMask;
+using rasterizer::TiledDraw;
+
+constexpr int kMostThreads = 64;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+double now(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
+}
+
+/// Keeps the least of what `act` takes.
+template <class Act>
+void time_into(double& least, const Act& act, clockid_t clock = CLOCK_MONOTONIC) {
+  const double begin = now(clock);
+  act();
+  least = std::min(least, now(clock) - begin);
+}
+
+TaskCosts time_tasks(const rasterizer::FastRasterizer& fast, std::span<const FixedTriangle> triangles, const Plan& plan,
+                     std::size_t repetitions, StripMask& mask) {
+  const auto tiles = static_cast<std::size_t>(plan.grid.count());
+  TiledDraw::Memory memory;
+  TiledDraw::Canvas canvas(0);
+  rasterizer::TileMask tile_mask;
+  TaskCosts costs{kNever, {}, {}, std::vector<double>(tiles, kNever)};
+  std::vector<double> clear(tiles, kNever);
+  for (std::size_t i = 0; i < repetitions; ++i) {
+    time_into(costs.plan, [&] { make_plan(triangles, mask.target(), plan.threads); });
+    mask.clear();
+    TiledDraw drawing(fast, triangles, plan, mask, memory);
+    costs.bins.resize(drawing.binned() ? drawing.chunks() : 0, kNever);
+    costs.parts.resize(tiles, std::vector<double>(drawing.chunks(), kNever));
+    for (std::size_t chunk = 0; chunk < costs.bins.size(); ++chunk) {
+      time_into(costs.bins[chunk], [&] { drawing.bin(chunk); });
+    }
+    for (std::size_t t = 0; t < tiles; ++t) {
+      const int tile = static_cast<int>(t);
+      time_into(clear[t], [&] { tile_mask.begin(plan.grid.tile(tile)); });
+      for (std::size_t chunk = 0; chunk < drawing.chunks(); ++chunk) {
+        time_into(costs.parts[t][chunk], [&] { drawing.draw(tile, chunk, canvas); });
+      }
+      time_into(costs.tiles[t], [&] { drawing.finish(canvas); });
+    }
+  }
+  for (std::size_t t = 0; t < tiles; ++t) {
+    // The first part's time has it, and every thread that joins will need it.
+    costs.parts[t].front() = std::max(costs.parts[t].front() - clear[t], 0.0);
+    costs.tiles[t] += clear[t];
+  }
+  return costs;
+}
+
+/// Whole draws by one thread and by all, in turn.
+struct Measured {
+  double one = kNever, one_cpu = kNever, all = kNever, all_cpu = kNever;
+};
+
+Measured time_draws_by(int threads, const rasterizer::FastRasterizer& fast, std::span<const FixedTriangle> triangles,
+                       std::size_t repetitions, StripMask& mask) {
+  rasterizer::ThreadedRasterizer threaded(fast, threads);
+  Measured least;
+  const auto time_draw = [&](double& wall, double& cpu, const auto& draw) {
+    mask.clear();
+    time_into(
+        cpu, [&] { time_into(wall, draw); }, CLOCK_PROCESS_CPUTIME_ID);
+  };
+  for (std::size_t i = 0; i < repetitions; ++i) {
+    time_draw(least.one, least.one_cpu, [&] { fast.cover_union(triangles, mask); });
+    if (threads > 1) time_draw(least.all, least.all_cpu, [&] { threaded.cover_union(triangles, mask); });
+  }
+  return least;
+}
+
+tl::expected<void, Error> measure_workload(std::string_view name, const Scene& scene, std::size_t repetitions,
+                                           std::vector<ScalingPoint>& points) {
+  const auto triangles = snap_all<rasterizer::Format16_8>(scene);
+  if (!triangles) return tl::unexpected(triangles.error());
+  const rasterizer::FastRasterizer fast;
+  const rasterizer::Target target = target_of(scene.setting);
+  StripMask mask(target);
+  // The time of the thread, as what else runs would take its share of whole draws more than of short tasks.
+  const double one_thread = time_draws_by(1, fast, *triangles, repetitions, mask).one_cpu;
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  for (int threads = 1; threads <= kMostThreads; threads *= 2) {
+    const Plan plan = make_plan(*triangles, target, threads);
+    ScalingPoint& point = points.emplace_back();
+    point.workload = name;
+    point.triangles = triangles->size();
+    point.threads = threads;
+    point.used = plan.threads;
+    point.tile_columns = plan.grid.columns();
+    point.tile_rows = plan.grid.rows();
+    point.chunks = (triangles->size() + plan.chunk - 1) / plan.chunk;
+    point.one_thread_ns = one_thread;
+    if (plan.threads == 1) {
+      point.tasks_ns = point.predicted_ns = one_thread;
+    } else {
+      const TaskCosts costs = time_tasks(fast, *triangles, plan, repetitions, mask);
+      const Schedule schedule = play(costs, plan);
+      point.tasks_ns = schedule.tasks;
+      point.predicted_ns = costs.plan + rasterizer::start_of_threads(plan.threads) + schedule.end;
+    }
+    point.predicted_speedup = one_thread / point.predicted_ns;
+    if (threads == 1 || threads > processors) continue;
+    const Measured measured = time_draws_by(threads, fast, *triangles, repetitions, mask);
+    point.measured_speedup = measured.one / measured.all;
+    point.measured_cpu = measured.all_cpu / measured.one_cpu;
+  }
+  return {};
+}
+
+}  // namespace
+
+Schedule play(const TaskCosts& costs, const Plan& plan) {
+  const std::size_t chunks = costs.parts.front().size();
+  rasterizer::Agenda agenda(plan.tile_work, chunks, plan.least_help);
+  struct Thread {
+    double time = 0;
+    int tile = -1;
+  };
+  std::vector<Thread> threads(static_cast<std::size_t>(plan.threads));
+  std::vector<double> binned_at(chunks);
+  std::size_t next_bin = 0;
+  Schedule schedule;
+  const auto work = [&](Thread& thread, double cost) {
+    thread.time += cost;
+    schedule.tasks += cost;
+  };
+  const auto cost_of_tile = [&](int tile) { return tile < 0 ? 0 : costs.tiles[static_cast<std::size_t>(tile)]; };
+  while (!threads.empty()) {
+    // Who is free first acts first.
+    const auto first = std::ranges::min_element(threads, {}, &Thread::time);
+    Thread& thread = *first;
+    if (next_bin < costs.bins.size()) {
+      work(thread, costs.bins[next_bin]);
+      binned_at[next_bin++] = thread.time;
+      continue;
+    }
+    const auto part = agenda.next(thread.tile);
+    const int tile = part ? part->tile : -1;
+    if (tile != thread.tile) work(thread, cost_of_tile(thread.tile));
+    thread.tile = tile;
+    if (part) {
+      thread.time = std::max(thread.time, binned_at[part->chunk]);
+      work(thread, costs.parts[static_cast<std::size_t>(tile)][part->chunk]);
+    } else {
+      schedule.end = std::max(schedule.end, thread.time);
+      threads.erase(first);
+    }
+  }
+  return schedule;
+}
+
+tl::expected<std::vector<ScalingPoint>, Error> measure_scaling(const ScalingEffort& effort, std::uint64_t seed) {
+  constexpr std::size_t kWide = 200'000;
+  const Progress progress(workloads().size() + 1, "workloads");
+  std::vector<ScalingPoint> points;
+  std::size_t done = 0;
+  const auto measure_one = [&](std::string_view name, const Scene& scene) {
+    progress.show(done++, name);
+    return measure_workload(name, scene, effort.repetitions, points);
+  };
+  for (const Workload& workload : workloads()) {
+    const Scene scene = make_workload(workload, std::max<std::size_t>(workload.triangles / effort.divisor, 4), seed);
+    if (auto measured = measure_one(workload.name, scene); !measured) return tl::unexpected(measured.error());
+  }
+  const Scene wide = make_even({16'384, 16'384}, kWide / effort.divisor, 200, seed);
+  if (auto measured = measure_one("wide200", wide); !measured) return tl::unexpected(measured.error());
+  return points;
+}
+
+}  // namespace edgecase::conformance

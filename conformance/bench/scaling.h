@@ -1,0 +1,71 @@
+// Scaling: how the time of a draw falls with the number of threads, beyond the processors that there are.
+//
+// The tasks of a drawing (rasterizer/threads/tiled_draw.h) are timed one after the other on one thread, and then played
+// through the very agenda that the threads follow, on as many of them as asked for. Beside that stands what is measured
+// where there are as many processors. Threads share no memory and no power in this model, and starting them takes what
+// start_of_threads() says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "conformance/scene/error.h"
+#include "rasterizer/threads/plan.h"
+
+namespace edgecase::conformance {
+
+/// ns of each task of a drawing on one thread.
+struct TaskCosts {
+  double plan = 0;                         ///< before threads start
+  std::vector<double> bins;                ///< of each chunk; none if there is but one tile
+  std::vector<std::vector<double>> parts;  ///< of each tile, for each chunk
+  std::vector<double> tiles;  ///< to clear and to add a mask of each tile, once for each thread that has it
+};
+
+struct Schedule {
+  double end = 0;    ///< ns until the last thread is done, from the first one's start
+  double tasks = 0;  ///< the sum of all tasks, helpers' masks included
+};
+
+/// Plays the tasks through the agenda with plan.threads threads that all start at 0.
+Schedule play(const TaskCosts& costs, const rasterizer::Plan& plan);
+
+struct ScalingPoint {
+  std::string workload;
+  std::size_t triangles = 0;
+  int threads = 0;  ///< that there are
+  int used = 0;     ///< by the plan
+  int tile_columns = 0;
+  int tile_rows = 0;
+  std::size_t chunks = 0;
+  double one_thread_ns = 0;  ///< the fast path by itself
+  double tasks_ns = 0;       ///< all tasks of these threads
+  double predicted_ns = 0;
+  double predicted_speedup = 0;
+  /// Of whole draws, where there are that many processors; and their CPU time on all threads, in that of one thread.
+  std::optional<double> measured_speedup{};
+  std::optional<double> measured_cpu{};
+};
+
+struct ScalingEffort {
+  std::size_t repetitions;  ///< the least time of which counts: others run on this machine, too
+  std::size_t divisor;      ///< of the number of the workloads' triangles
+};
+inline constexpr ScalingEffort kQuickScaling{2, 100};
+inline constexpr ScalingEffort kThoroughScaling{9, 1};
+
+/// Workload by workload, for 1, 2, 4 ... 64 threads. The last workload, wide200, is 200,000 triangles of 200 px on
+/// 16384x16384 pixels.
+tl::expected<std::vector<ScalingPoint>, Error> measure_scaling(const ScalingEffort& effort, std::uint64_t seed);
+
+/// {"points": [...]}, an object per point with the fields' names as keys, indented.
+std::string scaling_json(std::span<const ScalingPoint> points);
+std::string scaling_table(std::span<const ScalingPoint> points);
+/// The gnuplot program for a PNG at `path`.
+std::string scaling_plot_program(std::span<const ScalingPoint> points, const std::string& path);
+
+}  // namespace edgecase::conformance

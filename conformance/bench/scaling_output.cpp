@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "conformance/bench/plot.h"
+#include "conformance/bench/scaling.h"
+
+namespace edgecase::conformance {
+namespace {
+
+std::vector<std::string> workloads_of(std::span<const ScalingPoint> points) {
+  std::vector<std::string> names;
+  for (const ScalingPoint& point : points) {
+    if (std::ranges::find(names, point.workload) == names.end()) names.push_back(point.workload);
+  }
+  return names;
+}
+
+constexpr std::string_view kAbout =
+    "Tasks timed one by one on one thread, played through the threads' own agenda; rings are measured.\\n"
+    "A line bends where starting threads (5 us, and 0.5 us each) and their masks' memory weigh as much as a thread's\\n"
+    "share of the draw, and ends flat where the plan takes no more of them. Not in the model: shared memory bandwidth.";
+
+}  // namespace
+
+std::string scaling_json(std::span<const ScalingPoint> points) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  };
+  for (const ScalingPoint& point : points) {
+    list.push_back({{"workload", point.workload},
+                    {"triangles", point.triangles},
+                    {"threads", point.threads},
+                    {"used", point.used},
+                    {"tile_columns", point.tile_columns},
+                    {"tile_rows", point.tile_rows},
+                    {"chunks", point.chunks},
+                    {"one_thread_ns", point.one_thread_ns},
+                    {"tasks_ns", point.tasks_ns},
+                    {"predicted_ns", point.predicted_ns},
+                    {"predicted_speedup", point.predicted_speedup},
+                    {"measured_speedup", optional(point.measured_speedup)},
+                    {"measured_cpu", optional(point.measured_cpu)}});
+  }
+  return nlohmann::ordered_json{{"points", list}}.dump(2) + "\n";
+}
+
+std::string scaling_table(std::span<const ScalingPoint> points) {
+  std::string text =
+      fmt::format("{:>10} {:>8} {:>8} {:>7} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "workload", "threads", "used",
+                  "tiles", "chunks", "tasks", "predicted", "speedup", "measured", "CPU time");
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.2f}x", *value) : std::string();
+  };
+  for (const ScalingPoint& point : points) {
+    text +=
+        fmt::format("{:>10} {:>8} {:>8} {:>7} {:>8} {:>7.0f} us {:>7.0f} us {:>9.2f}x {:>10} {:>10}\n", point.workload,
+                    point.threads, point.used, fmt::format("{}x{}", point.tile_columns, point.tile_rows), point.chunks,
+                    point.tasks_ns / 1e3, point.predicted_ns / 1e3, point.predicted_speedup,
+                    optional(point.measured_speedup), optional(point.measured_cpu));
+  }
+  return text;
+}
+
+std::string scaling_plot_program(std::span<const ScalingPoint> points, const std::string& path) {
+  // Okabe and Ito's palette; told apart by symbol as well.
+  constexpr std::array kColours{"#000000", "#D55E00", "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#56B4E9", "#999999"};
+  constexpr std::array kSymbols{5, 9, 11, 13, 7, 2, 3, 1};
+  const auto names = workloads_of(points);
+  std::string text = fmt::format(
+      "set terminal pngcairo size 900,760 noenhanced font 'sans,12'\nset output {}\nset title {} font ',15'\n"
+      "set logscale xy 2\nset grid xtics ytics lc rgb '#dddddd'\nset xrange [0.9:71]\nset yrange [0.9:71]\n"
+      "set xtics (1,2,4,8,16,32,64)\nset ytics (1,2,4,8,16,32,64)\n"
+      "set lmargin at screen 0.09\nset rmargin at screen 0.97\nset tmargin at screen 0.94\n"
+      "set bmargin at screen 0.33\nset key at screen 0.02,0.14 left top reverse Left vertical maxrows 3\n"
+      "set xlabel 'threads'\nset ylabel 'times as fast as one thread'\n"
+      "set label \"{}\" at screen 0.02,0.225 left font ',11'\nplot x with lines lw 1 dt 3 lc rgb '#666666' title "
+      "'ideal'",
+      gnuplot_quoted(path), gnuplot_quoted("Speed over threads, 1920x1080 (wide200: 16384x16384)"), kAbout);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const char* const colour = kColours[i % kColours.size()];
+    text += fmt::format(", '-' using 1:2 with linespoints lw 1.5 pt {} ps 1.2 lc rgb '{}' title {}",
+                        kSymbols[i % kSymbols.size()], colour, gnuplot_quoted(names[i]));
+    text += fmt::format(", '-' using 1:2 with points pt 6 ps 2.4 lw 1.5 lc rgb '{}' notitle", colour);
+  }
+  text += '\n';
+  for (const std::string& name : names) {
+    std::string predicted, measured = "NaN NaN\n";
+    for (const ScalingPoint& point : points) {
+      if (point.workload != name) continue;
+      predicted += fmt::format("{} {}\n", point.threads, point.predicted_speedup);
+      if (point.measured_speedup) measured += fmt::format("{} {}\n", point.threads, *point.measured_speedup);
+    }
+    text += predicted + "e\n" + measured + "e\n";
+  }
+  return text + "set output\n";
+}
+
+}  // namespace edgecase::conformance

@@ -1,0 +1,74 @@
+#include "rasterizer/threads/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+namespace edgecase::rasterizer {
+namespace {
+
+using Fixed = FixedTriangle<Format16_8>;
+
+/// Triangles of about `size` px anywhere in the part of `target` left of `right`.
+std::vector<Fixed> triangles(const Target& target, std::size_t count, int size, int right) {
+  std::mt19937_64 random(1);
+  const auto below = [&](int end) { return static_cast<int>(random() % static_cast<std::uint64_t>(end)); };
+  std::vector<Fixed> list(count);
+  for (Fixed& fixed : list) {
+    const int x = below((right - size) * 256), y = below((target.height().value() - size) * 256);
+    for (auto& v : fixed) v = {*Int<24>::checked(x + below(size * 256)), *Int<24>::checked(y + below(size * 256))};
+  }
+  return list;
+}
+
+TEST(Plan, ALittleWorkIsForOneThread) {
+  const Target screen = *Target::make(1920, 1080);
+  EXPECT_EQ(make_plan({}, screen, 8).threads, 1);
+  EXPECT_EQ(make_plan(triangles(screen, 100, 10, 1920), screen, 8).threads, 1);
+  EXPECT_EQ(make_plan(triangles(screen, 100'000, 10, 1920), screen, 8).threads, 8);
+  EXPECT_EQ(make_plan(triangles(screen, 100'000, 10, 1920), screen, 1).threads, 1);
+  // As many triangles cost less than adding up the masks of a target that large.
+  const Target large = *Target::make(16'384, 16'384);
+  EXPECT_EQ(make_plan(triangles(large, 10'000, 10, 16'384), large, 2).threads, 1);
+}
+
+TEST(Plan, TilesAreForLargeTargetsAndManyThreads) {
+  const Target screen = *Target::make(1920, 1080), large = *Target::make(16'384, 16'384);
+  const auto on_screen = triangles(screen, 200'000, 30, 1920), on_large = triangles(large, 200'000, 30, 16'384);
+  EXPECT_EQ(make_plan(on_screen, screen, 2).grid.count(), 1);
+  const int tiles = make_plan(on_large, large, 2).grid.count();
+  EXPECT_GT(tiles, 1);
+  EXPECT_GT(make_plan(on_large, large, 64).grid.count(), tiles);
+}
+
+TEST(Plan, TheWorkIsWhereTheTrianglesAre) {
+  const Target large = *Target::make(4'096, 4'096);
+  const auto list = triangles(large, 50'000, 30, 1'024);
+  const Plan plan = make_plan(list, large, 4, 4, 2);
+  ASSERT_EQ(plan.tile_work.size(), 8u);
+  for (std::size_t tile = 0; tile < 8; ++tile) {
+    if (tile % 4 == 0) {
+      EXPECT_GT(plan.tile_work[tile], 1e5);
+    } else {
+      EXPECT_EQ(plan.tile_work[tile], 0);
+    }
+  }
+  // Of cuts only the costs depend on the grid, not the work.
+  const auto sum = [](const Plan& p) { return std::accumulate(p.tile_work.begin(), p.tile_work.end(), 0.0); };
+  EXPECT_NEAR(sum(plan) / sum(make_plan(list, large, 4, 1, 1)), 1, 1e-6);
+}
+
+TEST(Plan, ChunksSufficeForAllThreads) {
+  const Target screen = *Target::make(1920, 1080);
+  for (const std::size_t count : {1u, 30u, 2'000u, 100'000u}) {
+    const auto list = triangles(screen, count, 30, 1920);
+    const Plan plan = make_plan(list, screen, 16, 2, 2);
+    EXPECT_EQ(plan.threads, 16);
+    EXPECT_GE(plan.chunk, 1u);
+    EXPECT_GE((count + plan.chunk - 1) / plan.chunk, std::min<std::size_t>(count, 16 * 16));
+  }
+}
+
+}  // namespace
+}  // namespace edgecase::rasterizer

@@ -1,0 +1,83 @@
+#include "conformance/bench/scaling.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "conformance/bench/bench.h"
+
+namespace edgecase::conformance {
+namespace {
+
+using testing::HasSubstr;
+
+/// `tiles` tiles in one row, all of the work that `costs` has for them.
+rasterizer::Plan plan_for(const TaskCosts& costs, int threads, double least_help) {
+  const auto tiles = static_cast<int>(costs.parts.size());
+  std::vector<double> work;
+  for (const auto& parts : costs.parts) work.push_back(std::accumulate(parts.begin(), parts.end(), 0.0));
+  return {rasterizer::TileGrid(*rasterizer::Target::make(1'000, 1'000), tiles, 1), threads, 1, work, 0, least_help};
+}
+
+TEST(Scaling, OneThreadDoesEverythingOneAfterTheOther) {
+  const TaskCosts costs{0, {1, 2}, {{10, 20}, {30, 40}}, {5, 5}};
+  const Schedule schedule = play(costs, plan_for(costs, 1, 0));
+  EXPECT_DOUBLE_EQ(schedule.end, 113);
+  EXPECT_DOUBLE_EQ(schedule.tasks, 113);
+}
+
+TEST(Scaling, TilesAreTakenInFallingOrderByWhoIsFree) {
+  // Too little is left anywhere to help: 60 | 40 | 30, then 20 behind the 30, 10 behind the 40.
+  const TaskCosts costs{0, {}, {{10}, {60}, {20}, {30}, {40}}, {0, 0, 0, 0, 0}};
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 3, 100)).end, 60);
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 2, 100)).end, 80);  // 60 20 | 40 30 10
+}
+
+TEST(Scaling, OneTileIsSharedAtThePriceOfAMaskForEach) {
+  const TaskCosts costs{0, {}, {std::vector<double>(8, 10)}, {3}};
+  const Schedule schedule = play(costs, plan_for(costs, 4, 1));
+  EXPECT_DOUBLE_EQ(schedule.end, 23);
+  EXPECT_DOUBLE_EQ(schedule.tasks, 92);
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 4, 1'000)).end, 83);
+}
+
+TEST(Scaling, APartWaitsForItsBinsAndForNoOthers) {
+  // The second thread is done binning at 1, begins with chunk 0 of its tile at 10, when the first one has binned it.
+  const TaskCosts costs{0, {10, 1}, {{2, 2}, {5, 5}}, {0, 0}};
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 2, 100)).end, 20);
+}
+
+TEST(Scaling, TheCommandWritesATableAndAPicture) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "scaling_test";
+  std::filesystem::remove_all(folder);
+  BenchOptions options;
+  options.quick = true;
+  options.scaling = folder.string();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(bench_command(options), 0);
+  const std::string table = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(table, testing::AllOf(HasSubstr("large20k"), HasSubstr("wide200")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "scaling.json"));
+  EXPECT_GT(std::filesystem::file_size(folder / "scaling.png"), 10'000u);
+  std::filesystem::remove_all(folder);
+  options.scaling = "/proc/scaling";
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(bench_command(options), 2);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("cannot make the folder /proc/scaling"));
+}
+
+TEST(Scaling, OutputNamesWhatIsKnown) {
+  const std::vector<ScalingPoint> points{{"full", 200, 2, 2, 1, 4, 13, 1'000, 1'100, 600, 1.67, 1.5, 1.1},
+                                         {"full", 200, 4, 4, 1, 4, 13, 1'000, 1'100, 300, 3.33}};
+  const auto json = nlohmann::json::parse(scaling_json(points));
+  EXPECT_EQ(json.at("points")[0].at("measured_speedup"), 1.5);
+  EXPECT_TRUE(json["points"][1].at("measured_speedup").is_null());
+  EXPECT_THAT(scaling_table(points), HasSubstr("3.33x"));
+  EXPECT_THAT(scaling_plot_program(points, "a.png"), testing::AllOf(HasSubstr("4 3.33\n"), HasSubstr("2 1.5\n")));
+}
+
+}  // namespace
+}  // namespace edgecase::conformance

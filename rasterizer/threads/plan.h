@@ -1,0 +1,46 @@
+// Plan: into how many tiles, chunks of triangles and threads a drawing is cut, from what each way is estimated to cost.
+//
+// One tile needs no bins: every thread draws its share of the triangles into a mask of its own, and the masks are added
+// up. That costs a mask's worth of memory traffic for each thread. Tiles cost less of it, and their masks stay in the
+// caches, but binning reads and copies every triangle once more, and triangles on a tile's border are drawn in both. So
+// a screen's mask and few threads want one tile; large targets and many threads want more, but no more than needed,
+// because threads help each other with a tile (agenda.h).
+//
+// Rows of tiles before columns: a triangle's rows are what drawing it goes by, so that a cut between rows adds only the
+// setup, while one between columns also makes both sides clip.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rasterizer/fast/tile_grid.h"
+#include "rasterizer/format.h"
+
+namespace edgecase::rasterizer {
+
+struct Plan {
+  TileGrid grid;
+  /// At least one; if one, the other fields do not matter.
+  int threads;
+  /// Triangles of a chunk, at least one.
+  std::size_t chunk;
+  /// Estimated ns of drawing each tile.
+  std::vector<double> tile_work;
+  /// Estimated ns of the whole on these threads.
+  double estimate;
+  /// ns that must be left of a tile for another thread to join: twice what its mask costs to clear and to add.
+  double least_help;
+};
+
+/// ns until that many threads work, assumed rather than measured.
+double start_of_threads(int threads);
+
+/// The plan with `columns` by `rows` tiles for exactly `threads` threads.
+Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads, int columns,
+               int rows);
+
+/// The plan that is estimated to be done first with up to `threads` threads: one thread's, where more save too little.
+Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads);
+
+}  // namespace edgecase::rasterizer

@@ -1,0 +1,105 @@
+// TiledDraw: one drawing as tasks: binning chunks of triangles, drawing parts of tiles, adding tiles to the mask.
+//
+// A bin is what one chunk puts into one tile: a copy of those of its triangles that reach the tile, in their order.
+// Which do is found as bits, the way of Laine and Karras, "High-Performance Software Rasterization on GPUs" (2011): one
+// bit for every column and every row of tiles that a triangle's bounding box reaches; a tile's triangles are the
+// conjunction of its column's bits and its row's. Copies rather than indices, because whoever draws a tile would miss
+// the cache with almost every triangle: when a chunk is binned, its triangles are at hand. The bins of a chunk are
+// written by the one thread that bins it, in memory that only this chunk has, and only read after that.
+#pragma once
+
+#pragma once
+
+#include <tbb/spin_mutex.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rasterizer/fast/fast.h"
+#include "rasterizer/threads/agenda.h"
+#include "rasterizer/threads/plan.h"
+
+namespace edgecase::rasterizer {
+
+class TiledDraw {
+ public:
+  using Triangle = FixedTriangle<Format16_8>;
+
+  /// A chunk's bins.
+  struct alignas(64) Bins {
+    std::vector<std::uint64_t> reach;
+    std::vector<std::uint32_t> begin;  ///< of each tile, and the last one's end
+    std::vector<Triangle> triangles;   ///< and room for more
+    std::atomic<bool> done{false};
+  };
+  /// What is worth keeping from one drawing to the next.
+  struct Memory {
+    struct alignas(64) Lock {
+      tbb::spin_mutex mutex;
+    };
+    std::vector<std::unique_ptr<Bins>> bins;
+    std::array<Lock, 64> locks;
+  };
+
+  /// A tile that a thread draws into, and triangles on their way there.
+  class Canvas {
+   public:
+    /// `number`: another one for each thread, so that they do not add to the same words at the same time.
+    explicit Canvas(std::size_t number) : number_(number) {}
+
+   private:
+    friend class TiledDraw;
+    std::size_t number_;
+    int tile_ = -1;
+    TileMask mask_;
+    /// Fewer than fill a vector, of the last bin.
+    std::size_t waiting_ = 0;
+    std::array<Triangle, kMaxLanes> triangles_;
+  };
+
+  /// The arguments must outlive it; `plan` is for these triangles and this mask's target.
+  TiledDraw(const FastRasterizer& fast, std::span<const Triangle> triangles, const Plan& plan, StripMask& mask,
+            Memory& memory);
+
+  /// Does tasks until none is left for this thread. All of them are done when this has returned on every thread that
+  /// called it, plan.threads of them or fewer, each with a canvas of its own.
+  void work(Canvas& canvas);
+
+  // The tasks, for those who want to time them, or do them in an order of their own.
+
+  std::size_t chunks() const { return chunks_; }
+  int tiles() const { return plan_.grid.count(); }
+
+  /// Whether there are bins. A single tile needs none.
+  bool binned() const { return tiles() > 1; }
+  /// Each chunk is to be binned once, by any thread.
+  void bin(std::size_t chunk);
+
+  /// Draws what triangles of `chunk` put into `tile`; waits for the chunk's bins. If `canvas` has another tile, that is
+  /// finished first. Each part is to be drawn once, by any thread, each thread having a canvas of its own.
+  void draw(int tile, std::size_t chunk, Canvas& canvas);
+
+  /// Adds what `canvas` has to the mask, and leaves it without a tile.
+  void finish(Canvas& canvas);
+
+ private:
+  std::span<const Triangle> triangles_of(std::size_t chunk) const;
+  void draw_waiting(Canvas& canvas) const;
+  void draw_in_order(std::span<const Triangle> triangles, Canvas& canvas) const;
+
+  const FastRasterizer& fast_;
+  std::span<const Triangle> triangles_;
+  const Plan& plan_;
+  StripMask& mask_;
+  std::size_t chunks_;
+  Memory& memory_;
+  Agenda agenda_;
+  alignas(64) std::atomic<std::size_t> next_to_bin_{0};
+};
+
+}  // namespace edgecase::rasterizer
