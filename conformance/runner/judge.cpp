@@ -233,6 +233,13 @@ bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   return std::ranges::equal(predicted_, observed_[triangle]);
 }
 
+void Judge::show_clipped(std::size_t first, std::size_t count, Finding& finding) const {
+  const ClippedView clipped = clipped_view(reference_.window(), first, count);
+  finding.window = clipped.scene;
+  finding.expected = clipped.masks(expected_);
+  finding.observed = clipped.masks(observed_);
+}
+
 // What the deviation makes of the triangles that clipping left, where it concerns them, and the rules where it does
 // not.
 void Judge::predict_clipped(std::size_t triangle) {
@@ -248,29 +255,6 @@ void Judge::predict_clipped(std::size_t triangle) {
     }
   }
   unite_parts(window, triangle, parts_, 0, predicted_);
-}
-
-// The triangles that clipping left of one are drawn together: the first of them bears the masks of them all.
-void Judge::show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const {
-  const WindowScene& window = reference_.window();
-  finding.window.setting = window.scene.setting;
-  finding.window.rules = window.scene.rules;
-  std::vector<std::size_t> bearers;
-  std::vector<Triangle>& shown = finding.window.triangles;
-  for (std::size_t triangle = first; triangle < first + count; ++triangle) {
-    bearers.push_back(shown.size());
-    for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
-      shown.push_back(window.scene.triangles[i]);
-    }
-    if (shown.size() == bearers.back()) shown.push_back({});  // nothing is left, and nothing expected
-  }
-  const auto copy_all = [&](const auto& from, MaskBatch& to) {
-    to.reset(layout, shown.size());
-    std::ranges::fill(to.data(), 0);
-    for (std::size_t i = 0; i < count; ++i) std::ranges::copy(from[first + i], to[bearers[i]].begin());
-  };
-  copy_all(expected_, finding.expected);
-  copy_all(observed_, finding.observed);
 }
 
 // What is expected of a torn mesh is what was observed, but with each sample inside covered once.
@@ -291,7 +275,7 @@ void Judge::add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& w
   finding.scene.clip =
       ClipGeometry{batch.scene.clip->viewport, std::vector(begin, begin + static_cast<std::ptrdiff_t>(mesh.count))};
   finding.scene.meshes = {{0, mesh.count}};
-  show_clipped(mesh.first, mesh.count, MaskLayout(batch.scene.setting), finding);
+  show_clipped(mesh.first, mesh.count, finding);
   finding.expected = finding.observed;
   for (std::size_t word = 0; word < inside.size(); ++word) {
     std::uint64_t open = inside[word];
@@ -338,7 +322,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
     if (torn_mesh) finding.scene.meshes.push_back({0, count});
   }
   if (batch.scene.clip && !window_) {
-    show_clipped(first, count, layout, finding);
+    show_clipped(first, count, finding);
   } else {
     finding.window = finding.scene;
     finding.window.clip.reset();

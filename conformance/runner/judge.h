@@ -99,7 +99,7 @@ class Judge {
                    Outcome& outcome) const;
 
   void predict_clipped(std::size_t triangle);
-  void show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const;
+  void show_clipped(std::size_t first, std::size_t count, Finding& finding) const;
   /// The generator's scene number of that triangle of the batch.
   static std::uint64_t part_of(const Batch& batch, std::size_t triangle);
   /// `inside` is what has to be covered once.

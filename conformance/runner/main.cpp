@@ -41,7 +41,9 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--seed", options.seed, "Seed of the generators")->type_name("N")->capture_default_str();
   run->add_option("--json", options.json, "Write the results as JSON")->type_name("FILE");
   run->add_option("--junit", options.junit, "Write the results as JUnit XML")->type_name("FILE");
-  run->add_option("--report", options.report, "Folder for pictures, reproductions and index.html")->type_name("DIR");
+  run->add_option("--report", options.report,
+                  "Folder for pictures, reproductions and index.html; edgecase-report if there are any")
+      ->type_name("DIR");
   run->add_option("--jobs", options.jobs, "Threads")->type_name("N")->check(CLI::Range(1, 1024))->capture_default_str();
 }
 
