@@ -68,8 +68,8 @@ void clip(const Lattice&, Random& random, Scene& scene) {
 }
 
 // As far_corner, for a viewport that ends within the target's first 64 pixels: one vertex far to the left and above,
-// one about the viewport's lower right corner, one on the same row or column as either. Most are cut at the viewport's
-// sides.
+// one about the viewport's lower right corner, one on the same row or column as either; or each coordinate of each
+// vertex at either end, so that the target may lie outside of the triangle. Most are cut at the viewport's sides.
 void clip_far(const Lattice&, Random& random, Scene& scene) {
   const W kind = random.one_in(2) ? W::one : W::positive;
   const float reach = std::ldexp(1.25F, 1 - static_cast<int>(random.between(0, 2)));
@@ -83,7 +83,9 @@ void clip_far(const Lattice&, Random& random, Scene& scene) {
   ClipTriangle triangle{ClipPosition{left, top}, ClipPosition{right, bottom},
                         ClipPosition{beside ? right : left, beside ? top : bottom}};
   if (random.one_in(2)) std::swap(triangle[0], triangle[1]);
+  const bool anywhere = random.one_in(2);
   for (ClipPosition& p : triangle) {
+    if (anywhere) p = {random.one_in(2) ? near() : far(), random.one_in(2) ? near() : far()};
     p.w = homogeneous(random, kind);
     p.x *= p.w;
     p.y *= p.w;

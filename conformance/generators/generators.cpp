@@ -44,6 +44,12 @@ Setting sized(const Extent& target, int samples = 1) {
   return setting;
 }
 
+Setting within(const Extent& target, const Rect& scissor, int samples) {
+  Setting setting = sized(target, samples);
+  setting.scissor = scissor;
+  return setting;
+}
+
 Setting scissored(const Rect& scissor) {
   Setting setting;
   setting.scissor = scissor;
@@ -183,6 +189,8 @@ std::span<const Generator> clip_generators() {
       Generator{"clip_far", "clip", kClippedFar, {}, families::clip_far, Viewport{-7950, -6960, 8000, 7000}},
       Generator{"clip_far_samples4", "clip", kClippedFar, multisampled(4), families::clip_far,
                 Viewport{-7940.5F, -6960.25F, 8000.25F, 7000.75F}},
+      Generator{"clip_far_scissor4", "clip", kClippedFar, within({30, 27}, {3, 2, 20, 21}, 4), families::clip_far,
+                Viewport{-7940.5F, -6960.25F, 7966.25F, 6985.75F}},
       Generator{"clip_samples4", "clip", kClipped, multisampled(4), families::clip,
                 Viewport{2.5005F, 1.5015F, 20.25F, 26.75F}},
   };

@@ -17,6 +17,8 @@ class DrawnRegion {
 
   /// Whether the driver draws the triangle at all: its bounding box, in pixels, has to meet the scissor.
   bool meets(const Triangle& triangle) const;
+  /// The pixels that the driver is told to draw: those of the scissor in the target and, if it heeds it, the viewport.
+  const Rect& scissor() const { return scissor_; }
   /// Every pixel in which samples may be covered.
   const Rect& reach() const { return reach_; }
   /// Takes the samples out of `mask` that lie in reach() but are not let through.

@@ -117,6 +117,11 @@ std::string reason(const RunResult& run, const KnownDeviation* deviation) {
     return fmt::format("{} of {} triangles cover other samples ({})", outcome.unexplained, outcome.triangles.triangles,
                        run.testcase.metamorphosis->about);
   }
+  if (outcome.obsolete != 0 && outcome.obsolete == outcome.unexplained) {
+    return fmt::format("{} of {} triangles are right where the known deviation's model says that they are wrong: {}",
+                       outcome.obsolete, outcome.triangles.triangles,
+                       outcome.known_triangles == 0 ? "it is obsolete" : "it predicts too much");
+  }
   if (outcome.unexplained != 0 && deviation != nullptr) {
     return fmt::format("{} of {} triangles are not what the known deviation's model predicts", outcome.unexplained,
                        outcome.triangles.triangles);

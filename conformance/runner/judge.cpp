@@ -148,6 +148,7 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
       const Comparison obsolete = compare_one(layout, batch, predicted_, observed_[i], i);
       if (!obsolete.first) continue;
       ++outcome.unexplained;
+      ++outcome.obsolete;
       add_finding(batch, i, 1, *obsolete.first, false, outcome);
     }
   }
@@ -240,21 +241,23 @@ void Judge::show_clipped(std::size_t first, std::size_t count, Finding& finding)
   finding.observed = clipped.masks(observed_);
 }
 
-// What the deviation makes of the triangles that clipping left, where it concerns them, and the rules where it does
-// not.
+// Each of the triangles that clipping left as the deviation has it, within the scissor that the driver itself is given,
+// where it concerns them, and as the rules have it where it does not. What a triangle gains by deviating may lie beyond
+// the scissor: only the others are filtered. Of drivers that deviate so, none fills the outline as a whole.
 void Judge::predict_clipped(std::size_t triangle) {
   const WindowScene& window = reference_.window();
-  const std::size_t first = window.first[triangle];
-  parts_.reset(MaskLayout(window.scene.setting), window.parts_of(triangle));
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const Triangle& part = window.scene.triangles[first + i];
-    if (deviation_->may_concern(window.scene.setting, part)) {
-      deviation_->predict(window.scene.setting, part, parts_[i]);
+  Setting setting = window.scene.setting;
+  setting.scissor = window.region.scissor();
+  std::ranges::fill(predicted_, 0);
+  for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
+    part_.assign(reference_.part(i).begin(), reference_.part(i).end());
+    if (deviation_->may_concern(setting, window.scene.triangles[i])) {
+      deviation_->predict(setting, window.scene.triangles[i], part_);
     } else {
-      std::ranges::copy(reference_.part(first + i), parts_[i].begin());
+      window.region.filter(part_);
     }
+    std::ranges::transform(predicted_, part_, predicted_.begin(), std::bit_or<>());
   }
-  unite_parts(window, triangle, parts_, 0, predicted_);
 }
 
 // What is expected of a torn mesh is what was observed, but with each sample inside covered once.

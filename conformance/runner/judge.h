@@ -64,6 +64,7 @@ struct Outcome {
   std::uint64_t unpredicted = 0;      ///< in clip space beyond the reach of the model; not compared
   std::uint64_t may = 0;              ///< samples that the rule set leaves open, covered otherwise than by Rules
   std::uint64_t unexplained = 0;      ///< triangles wrong and not predicted, or predicted wrong and right
+  std::uint64_t obsolete = 0;         ///< of these, predicted to be wrong and right
   /// The first few of each kind.
   std::vector<Finding> findings;
 };
@@ -114,7 +115,7 @@ class Judge {
   MaskBatch scratch_;
   std::optional<Scene> window_;
   std::vector<std::uint64_t> predicted_;
-  MaskBatch parts_;
+  std::vector<std::uint64_t> part_;
   std::vector<GridTriangle> snapped_;
 };
 

@@ -139,7 +139,11 @@ class Experimenter {
     if (deviation_ == nullptr) return false;
     const auto follows = [&](const Scene& scene, const MaskBatch& masks, std::size_t i) {
       predicted_.resize(masks[i].size());
-      deviation_->predict(scene.setting, scene.triangles[i], predicted_);
+      if (deviation_->may_concern(scene.setting, scene.triangles[i])) {
+        deviation_->predict(scene.setting, scene.triangles[i], predicted_);
+      } else {
+        oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], predicted_);
+      }
       return std::ranges::equal(predicted_, masks[i]);
     };
     return follows(experiment.base, base_, pieces.front().base) && std::ranges::all_of(pieces, [&](const Piece& p) {

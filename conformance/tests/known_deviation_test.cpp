@@ -94,10 +94,12 @@ TEST_P(JudgedBothWays, IsKnownOnlyAsPredicted) {
   EXPECT_TRUE(repaired.triangles.all_right());
   EXPECT_EQ(repaired.known_triangles, 0U);
   EXPECT_EQ(repaired.unexplained, kept.known_triangles);
+  EXPECT_EQ(repaired.obsolete, repaired.unexplained);
 
   const Outcome spread = judged(Wrap::spread, GetParam());
   EXPECT_EQ(spread.known_triangles, kept.known_triangles);
   EXPECT_GE(spread.unexplained, 1U);
+  EXPECT_EQ(spread.obsolete, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, JudgedBothWays,

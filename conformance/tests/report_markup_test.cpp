@@ -71,7 +71,7 @@ TEST(JunitReport, HasASuitePerSubject) {
   EXPECT_EQ(lavapipe.get<int>("<xmlattr>.failures"), 0);
   EXPECT_EQ(lavapipe.get<int>("<xmlattr>.skipped"), 1);
   EXPECT_EQ(lavapipe.get<double>("<xmlattr>.time"), 0.25);
-  EXPECT_EQ(lavapipe.get_child("properties").count("property"), 3u);
+  EXPECT_EQ(lavapipe.get_child("properties").count("property"), 4u);
   const ptree& pass = lavapipe.get_child("testcase");
   EXPECT_EQ(pass.get<std::string>("<xmlattr>.classname"), "lavapipe.edges");
   EXPECT_EQ(pass.get<std::string>("<xmlattr>.name"), "cases/a.json");
