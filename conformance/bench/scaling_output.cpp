@@ -20,7 +20,8 @@ std::vector<std::string> workloads_of(std::span<const ScalingPoint> points) {
 
 constexpr std::string_view kAbout =
     "Tasks timed one by one on one thread, played through the threads' own agenda; rings are measured.\\n"
-    "A line bends where starting threads (5 us, and 0.5 us each) and their masks' memory weigh as much as a thread's\\n"
+    "A line bends where starting other threads (5 us, and 0.5 us each) and their masks' memory weigh as much as a "
+    "thread's\\n"
     "share of the draw, and ends flat where the plan takes no more of them. Not in the model: shared memory bandwidth.";
 
 }  // namespace
