@@ -61,13 +61,17 @@ tl::expected<std::vector<GrowthPoint>, Error> measure_growth(
     const GrowthEffort& effort, std::uint64_t seed,
     const std::function<tl::expected<std::unique_ptr<Subject>, Error>(const std::string&)>& make_subject);
 
-/// The exponent between the first and the last value of a rasterizer's line, of the time as the picture shows it.
+/// The exponent of a rasterizer's line, of the time as the picture shows it: the least squares' fit of a straight line
+/// to the logarithms. 0 for fewer than two points.
 double slope_of(const GrowthAxis& axis, std::span<const GrowthPoint> points, std::string_view rasterizer);
 
 /// {"points": [...]}, an object per point with the fields' names as keys, indented.
 std::string growth_json(std::span<const GrowthPoint> points);
 
-/// For each axis a line per value and a column per rasterizer, and the slopes.
+/// The exponent between the last two values alone: where a line bends, what it comes to.
+double last_slope_of(const GrowthAxis& axis, std::span<const GrowthPoint> points, std::string_view rasterizer);
+
+/// For each axis a line per value and a column per rasterizer, the slopes, and why they are so.
 std::string growth_table(std::span<const GrowthPoint> points);
 
 /// The gnuplot program for the picture of one axis, a PNG at `path`.

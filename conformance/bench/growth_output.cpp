@@ -35,6 +35,22 @@ std::vector<const GrowthPoint*> line_of(const GrowthAxis& axis, std::span<const 
   return line;
 }
 
+double fitted_slope(const GrowthAxis& axis, std::span<const GrowthPoint* const> line) {
+  if (line.size() < 2) return 0;
+  double x_mean = 0, y_mean = 0;
+  for (const GrowthPoint* point : line) {
+    x_mean += std::log(point->value) / static_cast<double>(line.size());
+    y_mean += std::log(shown(axis, *point)) / static_cast<double>(line.size());
+  }
+  double products = 0, squares = 0;
+  for (const GrowthPoint* point : line) {
+    const double x = std::log(point->value) - x_mean;
+    products += x * (std::log(shown(axis, *point)) - y_mean);
+    squares += x * x;
+  }
+  return products / squares;
+}
+
 std::string title_of(const GrowthPoint& point) {
   return point.isa.empty() ? point.rasterizer : fmt::format("{} ({})", point.rasterizer, point.isa);
 }
@@ -43,9 +59,12 @@ std::string title_of(const GrowthPoint& point) {
 
 double slope_of(const GrowthAxis& axis, std::span<const GrowthPoint> points, std::string_view rasterizer) {
   const auto line = line_of(axis, points, rasterizer);
-  if (line.size() < 2) return 0;
-  return std::log(shown(axis, *line.back()) / shown(axis, *line.front())) /
-         std::log(line.back()->value / line.front()->value);
+  return fitted_slope(axis, line);
+}
+
+double last_slope_of(const GrowthAxis& axis, std::span<const GrowthPoint> points, std::string_view rasterizer) {
+  const auto line = line_of(axis, points, rasterizer);
+  return fitted_slope(axis, std::span(line).last(std::min<std::size_t>(line.size(), 2)));
 }
 
 std::string growth_json(std::span<const GrowthPoint> points) {
@@ -79,9 +98,18 @@ std::string growth_table(std::span<const GrowthPoint> points) {
       }
       text += '\n';
     }
-    text += fmt::format("{:>28}", "slope, first to last");
+    text += fmt::format("{:>28}", "slope, fitted");
     for (const std::string& name : names) text += fmt::format(" {:>18.2f}", slope_of(axis, points, name));
-    text += "\n\n";
+    text += fmt::format("\n{:>28}", "of the last step");
+    for (const std::string& name : names) text += fmt::format(" {:>18.2f}", last_slope_of(axis, points, name));
+    text += '\n';
+    for (std::string_view why = axis.slope; !why.empty();) {
+      // Lines end as gnuplot wants it, in an escaped line break.
+      const std::size_t end = std::min(why.find("\\n"), why.size());
+      text += fmt::format("{}\n", why.substr(0, end));
+      why.remove_prefix(std::min(end + 2, why.size()));
+    }
+    text += '\n';
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "conformance/bench/bench.h"
@@ -42,7 +43,8 @@ std::string three_digits(double value) {
   return value >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
-/// A line per rasterizer and a column per workload. Empty if none has a value.
+/// A line per rasterizer and a column per workload. Empty if none has a value. `field`: a member, or what a row is
+/// asked.
 template <class Field>
 std::string section(std::span<const BenchRow> rows, const std::string& title, Field field) {
   const auto names = distinct(rows, &BenchRow::rasterizer);
@@ -59,7 +61,8 @@ std::string section(std::span<const BenchRow> rows, const std::string& title, Fi
       const auto row = std::ranges::find_if(rows, [&](const BenchRow& candidate) {
         return candidate.rasterizer == name && candidate.workload == column;
       });
-      const std::optional<double> value = row == rows.end() ? std::nullopt : std::optional<double>((*row).*field);
+      const std::optional<double> value =
+          row == rows.end() ? std::nullopt : std::optional<double>(std::invoke(field, *row));
       any |= value.has_value();
       text += fmt::format(" {:>10}", value ? three_digits(*value) : "-");
     }
@@ -120,9 +123,17 @@ std::string bench_json(std::span<const BenchRow> rows) {
 }
 
 std::string bench_table(std::span<const BenchRow> rows) {
+  const auto ratio_to_vectorized = [&](const BenchRow& row) -> std::optional<double> {
+    const auto vectorized = std::ranges::find_if(rows, [&](const BenchRow& candidate) {
+      return candidate.rasterizer == kPlainVectorized && candidate.workload == row.workload;
+    });
+    if (vectorized == rows.end()) return std::nullopt;
+    return vectorized->ns_per_triangle / row.ns_per_triangle;
+  };
   return section(rows, "ns per triangle, median", &BenchRow::ns_per_triangle) +
          section(rows, "spread: quartiles / median", &BenchRow::spread) +
          section(rows, "times as fast as plain", &BenchRow::ratio_to_plain) +
+         section(rows, "times as fast as plain:vectorized", ratio_to_vectorized) +
          section(rows, "instructions per triangle", &BenchRow::instructions_per_triangle) +
          section(rows, "wrong px per million, by the rules", &BenchRow::wrong_per_million) +
          section(rows, "wrong px per million, by the real geometry", &BenchRow::wrong_per_million_real) +

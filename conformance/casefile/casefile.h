@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "conformance/scene/error.h"
+#include "conformance/scene/rule_set.h"
 #include "conformance/scene/scene.h"
 
 namespace edgecase::conformance {
@@ -44,6 +45,9 @@ struct Case {
   /// Where the rule stands, or where this broke a rasterizer.
   std::string source;
   Scene scene;
+  /// What the scene is judged by, and what `expect` says: under a set that leaves something open kMay is exactly that,
+  /// and the other counts are those of triangles that have to cover a sample.
+  const RuleSet* rule_set = &kExactRules;
   std::optional<Expectation> expect;
 };
 

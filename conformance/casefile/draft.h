@@ -30,6 +30,7 @@ FieldResult read_sample_positions(const Cursor& at, Draft& draft);
 FieldResult read_scissor(const Cursor& at, Draft& draft);
 FieldResult read_cull(const Cursor& at, Draft& draft);
 FieldResult read_front_face(const Cursor& at, Draft& draft);
+FieldResult read_rules(const Cursor& at, Draft& draft);
 FieldResult read_subpixel_bits(const Cursor& at, Draft& draft);
 FieldResult read_rounding(const Cursor& at, Draft& draft);
 FieldResult read_half_pixel_first(const Cursor& at, Draft& draft);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "conformance/scene/rule_set.h"
 #include "conformance/scene/scene.h"
 
 namespace edgecase::conformance {
@@ -18,6 +19,12 @@ inline constexpr auto kRoundingNames = std::to_array<Named<SnapRounding>>({
     {"half_away", SnapRounding::half_away},
     {"truncate", SnapRounding::truncate},
 });
+
+inline constexpr auto kRuleSetNames = [] {
+  std::array<Named<const RuleSet*>, kRuleSets.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = {kRuleSets[i].name, &kRuleSets[i]};
+  return names;
+}();
 
 inline constexpr auto kCullNames = std::to_array<Named<CullMode>>({
     {"none", CullMode::none},

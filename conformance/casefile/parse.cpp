@@ -113,6 +113,7 @@ constexpr auto kFields = std::to_array<Field>({
     {"scissor", Need::optional, read_scissor},
     {"cull", Need::optional, read_cull},
     {"front_face", Need::optional, read_front_face},
+    {"rules", Need::optional, read_rules},
     {"subpixel_bits", Need::optional, read_subpixel_bits},
     {"rounding", Need::optional, read_rounding},
     {"half_pixel_first", Need::optional, read_half_pixel_first},

@@ -77,15 +77,20 @@ FieldResult read_front_face(const Cursor& at, Draft& draft) {
   return store(at, kFrontFaceNames, draft.result.scene.setting.front_face);
 }
 
+FieldResult read_rules(const Cursor& at, Draft& draft) { return store(at, kRuleSetNames, draft.result.rule_set); }
+
 FieldResult read_subpixel_bits(const Cursor& at, Draft& draft) {
-  return store(at, 0, 16, draft.result.scene.rules.subpixel_bits);
+  const RuleSet& set = *draft.result.rule_set;
+  return store(at, set.least_subpixel_bits, set.most_subpixel_bits, draft.result.scene.rules.subpixel_bits);
 }
 
 FieldResult read_rounding(const Cursor& at, Draft& draft) {
+  if (!draft.result.rule_set->exact()) return at.remark("the field takes no rules beside it that leave the snap open");
   return store(at, kRoundingNames, draft.result.scene.rules.rounding);
 }
 
 FieldResult read_half_pixel_first(const Cursor& at, Draft& draft) {
+  if (!draft.result.rule_set->exact()) return at.remark("the field takes no rules beside it that leave the snap open");
   const auto half_first = at.boolean();
   if (!half_first) return tl::unexpected(half_first.error());
   // Half a pixel is on the grid only if that has a bit for it.

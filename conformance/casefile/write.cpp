@@ -143,6 +143,7 @@ std::string write_case(const Case& value) {
   fields.add("about", quoted(value.about));
   fields.add("source", quoted(value.source));
   add_setting(value.scene.setting, fields);
+  if (!value.rule_set->exact()) fields.add_name("rules", value.rule_set->name);
   add_rules(value.scene.rules, fields);
   add_geometry(value.scene, fields);
   if (value.expect) fields.add("expect", written(*value.expect, value.scene.setting));

@@ -109,7 +109,7 @@ Caption make_caption(const Exhibit& exhibit) {
     }
     caption.edge_unit = fmt::format("in (1/{} px)^2, positive inside", why.scale);
     caption.reason = reason_of(why);
-  } else if (exhibit.snapped.size() == 1) {
+  } else if (exhibit.snapped.size() == 1 && exhibit.snapped[0] != GridTriangle{}) {
     add_vertices(exhibit.snapped.front(), rules.subpixel_bits, caption);
   }
   return caption;

@@ -16,6 +16,12 @@ namespace edgecase::conformance {
 
 /// One triangle, or one mesh, with what the rules say and what a subject did. The masks hold one mask for each triangle
 /// of the scene, in its layout.
+struct Before {
+  std::string label;
+  std::string label_after;
+  std::vector<GridTriangle> snapped;
+};
+
 struct Exhibit {
   std::string title;    ///< one line
   std::string subject;  ///< may be empty when there is nothing observed
@@ -27,6 +33,9 @@ struct Exhibit {
   MaskBatch observed;  ///< no masks: the exhibit shows only what the rules say
   /// Its triangle is an index into scene.triangles.
   std::optional<WrongSample> wrong;
+  /// If present, the exhibit is of a change that must not matter: `must` is what was covered before it, by these
+  /// triangles, and the picture shows that on the left.
+  std::optional<Before> before;
   /// What is wrong with it, in words; where empty, its kind says it.
   std::string meaning;
   /// Of the wrong sample, in the triangle it names.

@@ -151,9 +151,10 @@ void draw_vertices(Canvas& canvas, const View& view, const Mapping& map, const s
 
 }  // namespace
 
-GridPanel::GridPanel(const View& view) {
-  const double largest = view.exhibit.scene.setting.samples() == 1 ? 48 : 72;
-  cell = std::clamp(std::floor(std::min(720.0 / view.window.width, 600.0 / view.window.height)), 12.0, largest);
+GridPanel::GridPanel(const View& view, double room) {
+  const int extent = std::max(view.window.width, view.window.height);
+  const double largest = std::clamp(360.0 / extent, view.exhibit.scene.setting.samples() == 1 ? 48.0 : 72.0, 96.0);
+  cell = std::clamp(std::floor(std::min(room / view.window.width, 600.0 / view.window.height)), 12.0, largest);
   width = cell * view.window.width;
   height = cell * view.window.height;
 }

@@ -29,7 +29,8 @@ inline constexpr Colour kPanel = rgb(0xF3F5F7);
 /// above.
 struct GridPanel {
   static constexpr double kAxis = 34;
-  explicit GridPanel(const View& view);
+  /// As large as `room` pixels of width allow.
+  GridPanel(const View& view, double room);
   void draw(Canvas& canvas, const View& view, double x, double y) const;
   double cell = 0;  ///< size of a pixel
   double width = 0;

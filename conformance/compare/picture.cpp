@@ -15,6 +15,9 @@ namespace {
 constexpr double kMargin = 28;
 constexpr double kTitle = 62;
 constexpr double kGap = 34;
+constexpr double kRoom = 720;
+constexpr double kHalfRoom = 480;
+constexpr double kPanelLabel = 24;
 constexpr Font kCommandFont{12.5, false, true};
 constexpr double kCommandLine = 19;
 
@@ -26,15 +29,41 @@ struct Size {
   double height = 0;
 };
 
+void draw_label(Canvas& canvas, const std::string& text, const GridPanel& grid, double x, double y) {
+  canvas.colour(ink::kText);
+  canvas.text(x, y - 28, canvas.shortened(text, {13, true, false}, grid.width), {13, true, false});
+}
+
+/// The same pixels as they were before a change, with a ring around the same sample.
+void draw_before(Canvas& canvas, const View& view, const GridPanel& grid, double x, double y) {
+  Exhibit before;
+  before.scene = view.exhibit.scene;
+  before.snapped = view.exhibit.before->snapped;
+  before.must = view.exhibit.must;
+  before.wrong = view.exhibit.wrong;
+  if (before.wrong) before.wrong->triangle = 0;
+  draw_label(canvas, view.exhibit.before->label, grid, x, y);
+  grid.draw(canvas, {before, view.window, {}}, x, y);
+}
+
 /// Draws everything and returns the size it needs. Drawn once on a recording surface, it tells the size of the real
 /// one.
 Size draw(cairo_t* context, const View& view) {
   Canvas canvas(context);
-  const GridPanel grid(view);
+  const bool before = view.exhibit.before.has_value();
+  // Before and after: side by side, or one above the other if they are wide.
+  const bool stacked = before && view.window.width > 2 * view.window.height;
+  const GridPanel grid(view, before && !stacked ? kHalfRoom : kRoom);
   const SidePanel side;
-  const double grid_x = kMargin + GridPanel::kAxis;
   const double body_y = kMargin + kTitle;
-  const double grid_y = body_y + 22;
+  double grid_x = kMargin + GridPanel::kAxis;
+  double grid_y = body_y + 22 + (before ? kPanelLabel : 0);
+  if (before) {
+    draw_before(canvas, view, grid, grid_x, grid_y);
+    (stacked ? grid_y : grid_x) +=
+        stacked ? grid.height + kGap + 22 + kPanelLabel : grid.width + kGap + GridPanel::kAxis;
+    draw_label(canvas, view.exhibit.before->label_after, grid, grid_x, grid_y);
+  }
   const double side_x = grid_x + grid.width + kGap;
   const double width = side_x + SidePanel::kWidth + kMargin;
   const double text_width = width - 2 * kMargin;

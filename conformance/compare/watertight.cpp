@@ -231,7 +231,7 @@ WrongSample WatertightChecker::locate(WrongSample::Kind kind, std::size_t word, 
 }
 
 void WatertightChecker::check(std::span<const GridTriangle> mesh, std::span<const std::uint64_t> masks,
-                              std::size_t first_triangle, Watertightness& total) {
+                              std::size_t first_triangle, Watertightness& total, MaskView open) {
   assert(masks.size() == mesh.size() * layout_.words());
   ++total.meshes;
   const std::optional<int> turn = common_orientation(mesh);
@@ -249,6 +249,7 @@ void WatertightChecker::check(std::span<const GridTriangle> mesh, std::span<cons
     ++total.folded_meshes;
     return;
   }
+  for (std::size_t i = 0; i < open.size(); ++i) outline_[i] |= open[i];
   count_layers(masks);
 
   // Nothing to report is the common case.

@@ -44,9 +44,10 @@ class WatertightChecker {
   WatertightChecker(const Setting& setting, int subpixel_bits);
 
   /// Checks one mesh and adds the outcome to `total`. `masks` holds the observed mask of each triangle, in order, as
-  /// MaskBatch::data() has them. `first_triangle` is the index that the first triangle has in the report.
+  /// MaskBatch::data() has them. `first_triangle` is the index that the first triangle has in the report. Samples in
+  /// `open`, a mask, may lie inside or outside; none do if it is empty. They count as those on the outline do.
   void check(std::span<const GridTriangle> mesh, std::span<const std::uint64_t> masks, std::size_t first_triangle,
-             Watertightness& total);
+             Watertightness& total, MaskView open = {});
 
  private:
   /// Fills inside_ and outline_; returns false if the outline winds neither 0 nor 1 times around some sample.

@@ -77,6 +77,18 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene) {
   return result;
 }
 
+ClippedView clipped_view(const WindowScene& window, std::size_t first, std::size_t count) {
+  ClippedView result{Scene{window.scene.setting, window.scene.rules, {}, {}}, first, {}};
+  std::vector<Triangle>& triangles = result.scene.triangles;
+  for (std::size_t i = first; i < first + count; ++i) {
+    result.bearers.push_back(triangles.size());
+    triangles.insert(triangles.end(), window.scene.triangles.begin() + static_cast<std::ptrdiff_t>(window.first[i]),
+                     window.scene.triangles.begin() + static_cast<std::ptrdiff_t>(window.first[i + 1]));
+    if (triangles.size() == result.bearers.back()) triangles.push_back({});
+  }
+  return result;
+}
+
 void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole) {
   whole.reset(MaskLayout(window.scene.setting), window.size());
   for (std::size_t i = 0; i < window.size(); ++i) unite_parts(window, i, parts, window.first[i], whole[i]);

@@ -1,6 +1,7 @@
 // A scene as one driver's transform leaves it: what an exact rasterizer has to cover to predict that driver.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -30,6 +31,25 @@ struct WindowScene {
 /// Clips and projects `scene.clip`, or else snaps `scene.triangles` (which reach the driver unchanged, as through an
 /// enclosing viewport).
 WindowScene window_scene(const TransformModel& model, const Scene& scene);
+
+/// Some triangles of a scene for a person to see: each as the parts that clipping left of it, or, if it left none, as
+/// one without area. The first part of each bears the mask of the whole.
+struct ClippedView {
+  Scene scene;
+  std::size_t first = 0;             ///< the scene's triangle that `bearers` begins with
+  std::vector<std::size_t> bearers;  ///< of each triangle, in `scene`
+
+  /// Mask i of `whole`, a MaskBatch or a view of one, is that of the scene's triangle i.
+  template <class Masks>
+  MaskBatch masks(const Masks& whole) const {
+    MaskBatch result;
+    result.reset(MaskLayout(scene.setting), scene.triangles.size());
+    std::ranges::fill(result.data(), 0);
+    for (std::size_t i = 0; i < bearers.size(); ++i) std::ranges::copy(whole[first + i], result[bearers[i]].begin());
+    return result;
+  }
+};
+ClippedView clipped_view(const WindowScene& window, std::size_t first, std::size_t count);
 
 /// `parts` are the masks of `window.scene`; mask i of `whole` becomes what the driver covers of triangle i.
 void unite(const WindowScene& window, const MaskBatch& parts, MaskBatch& whole);

@@ -1,7 +1,5 @@
-#include <algorithm>
-#include <bit>
-#include <cassert>
-#include <cstdint>
+#include "conformance/oracle/definition.h"
+
 #include <utility>
 
 #include "conformance/oracle/oracle.h"
@@ -9,105 +7,32 @@
 namespace edgecase::conformance::oracle {
 namespace {
 
-// 2^24 px with 16 subpixel bits are 2^40 grid units; differences have 42 bits with sign, their products 84, sums 85.
-__extension__ using Wide = __int128;
+using namespace definition;
 
-struct Point {
-  Wide x = 0;
-  Wide y = 0;
-};
-
-// A finite binary32 is mantissa * 2^exponent with an integer mantissa of at most 24 bits, so that times 2^bits it is an
-// integer plus a fraction of -(exponent + bits) bits, and every rounding is a comparison of that fraction with one
-// half.
 std::int64_t snap_coordinate(const Rules& rules, float coordinate) {
-  const auto pattern = std::bit_cast<std::uint32_t>(coordinate);
-  const bool negative = (pattern >> 31) != 0;
-  const int biased = static_cast<int>(pattern >> 23 & 0xff);
-  const std::int64_t mantissa = (pattern & 0x7fffff) | (biased == 0 ? 0 : 0x800000);
-  const int shift = std::max(biased, 1) - 150 + rules.subpixel_bits;
-  assert(biased <= 127 + 24);
-
-  if (shift >= 0) return (negative ? -mantissa : mantissa) * (std::int64_t{1} << shift);
-  // 26 fraction bits already put the whole mantissa below one quarter: whatever lies below decides no rounding.
-  const int fraction_bits = std::min(-shift, 26);
-  const std::int64_t magnitude = mantissa >> fraction_bits;
-  const std::int64_t fraction = mantissa & ((std::int64_t{1} << fraction_bits) - 1);
-  const std::int64_t half = std::int64_t{1} << (fraction_bits - 1);
-
-  bool away = false;  // from zero, to magnitude + 1
+  const Split split(coordinate, rules.subpixel_bits);
+  if (split.fraction == 0) return split.with_sign(split.whole);
+  const std::int64_t half = std::int64_t{1} << (split.fraction_bits - 1);
+  bool away = false;  // from zero, to whole + 1
   switch (rules.rounding) {
     case SnapRounding::nearest_even:
-      away = fraction > half || (fraction == half && magnitude % 2 != 0);
+      away = split.fraction > half || (split.fraction == half && split.whole % 2 != 0);
       break;
     case SnapRounding::half_up:
-      away = fraction > half || (fraction == half && !negative);
+      away = split.fraction > half || (split.fraction == half && !split.negative);
       break;
     case SnapRounding::half_away:
-      away = fraction >= half;
+      away = split.fraction >= half;
       break;
     case SnapRounding::truncate:
       break;
   }
-  const std::int64_t rounded = magnitude + (away ? 1 : 0);
-  return negative ? -rounded : rounded;
+  return split.with_sign(split.whole + (away ? 1 : 0));
 }
 
-// Everything below is in units of 1/2^bits px, bits being fine enough for the vertices and the sample locations both.
-int common_bits(const Rules& rules) { return std::max(rules.subpixel_bits, kSampleGridBits); }
-
-Point sample_point(const Rules& rules, const SampleLocation& location, int x, int y) {
-  const int bits = common_bits(rules);
-  const int sample_shift = bits - kSampleGridBits;
-  return {(Wide{x} << bits) + (Wide{location.x} << sample_shift),
-          (Wide{y} << bits) + (Wide{location.y} << sample_shift)};
+std::array<GridPoint, 3> snapped_vertices(const Rules& rules, const Triangle& triangle) {
+  return {snap(rules, triangle[0]), snap(rules, triangle[1]), snap(rules, triangle[2])};
 }
-
-struct Edge {
-  int from = 0;
-  int to = 0;
-  Point start;
-  Wide dx = 0;
-  Wide dy = 0;
-
-  // Positive on the right-hand side of start -> end as seen on the screen (y down).
-  Wide at(const Point& p) const { return dx * (p.y - start.y) - dy * (p.x - start.x); }
-  // With the inside on its right, a horizontal edge above the triangle runs to the right, a left edge upwards.
-  bool is_top() const { return dy == 0 && dx > 0; }
-  bool is_left() const { return dy < 0; }
-  bool accepts(Wide value) const { return value > 0 || (value == 0 && (is_top() || is_left())); }
-};
-
-// The triangle's edges in an order that has the inside on their right.
-struct Outline {
-  std::array<GridPoint, 3> snapped;
-  std::array<Point, 3> vertices;
-  std::array<Edge, 3> edges;
-  bool degenerate = false;
-  bool clockwise = false;
-
-  Outline(const Rules& rules, const Triangle& triangle) {
-    const int shift = common_bits(rules) - rules.subpixel_bits;
-    for (std::size_t i = 0; i < 3; ++i) {
-      snapped[i] = snap(rules, triangle[i]);
-      vertices[i] = {Wide{snapped[i].x} << shift, Wide{snapped[i].y} << shift};
-    }
-    const Wide area = edge(0, 1).at(vertices[2]);
-    degenerate = area == 0;
-    clockwise = area > 0;
-    edges = area >= 0 ? std::array{edge(0, 1), edge(1, 2), edge(2, 0)} : std::array{edge(0, 2), edge(2, 1), edge(1, 0)};
-  }
-
-  Edge edge(int from, int to) const {
-    const Point& a = vertices[static_cast<std::size_t>(from)];
-    const Point& b = vertices[static_cast<std::size_t>(to)];
-    return {from, to, a, b.x - a.x, b.y - a.y};
-  }
-
-  bool covers(const Point& p) const {
-    return !degenerate && std::all_of(edges.begin(), edges.end(), [&](const Edge& e) { return e.accepts(e.at(p)); });
-  }
-};
 
 std::string decimal(Wide value) {
   if (value == 0) return "0";
@@ -131,19 +56,6 @@ std::pair<int, int> touched_pixels(Wide low, Wide high, int bits, int extent) {
   return {static_cast<int>(first), static_cast<int>(last) + 1};
 }
 
-// By definition again: the scissor is asked pixel by pixel.
-bool scissor_holds(const Setting& setting, int x, int y) {
-  if (!setting.scissor) return true;
-  const Rect& r = *setting.scissor;
-  return x >= r.x && x < std::int64_t{r.x} + r.width && y >= r.y && y < std::int64_t{r.y} + r.height;
-}
-
-// By definition, too: the front is whichever winding the setting calls so.
-bool is_culled(const Setting& setting, const Outline& outline) {
-  const bool front = outline.clockwise == (setting.front_face == FrontFace::clockwise);
-  return setting.cull != CullMode::none && front == (setting.cull == CullMode::front);
-}
-
 }  // namespace
 
 GridPoint snap(const Rules& rules, const Position& position) {
@@ -155,7 +67,7 @@ GridPoint snap(const Rules& rules, const Position& position) {
 void cover_by_definition(const Setting& setting, const Rules& rules, const Triangle& triangle, MutableMaskView mask) {
   std::fill(mask.begin(), mask.end(), 0);
   const MaskLayout layout(setting);
-  const Outline outline(rules, triangle);
+  const Outline outline(rules, snapped_vertices(rules, triangle));
   if (is_culled(setting, outline)) return;
   const auto [left, right] = std::minmax({outline.vertices[0].x, outline.vertices[1].x, outline.vertices[2].x});
   const auto [top, bottom] = std::minmax({outline.vertices[0].y, outline.vertices[1].y, outline.vertices[2].y});
@@ -174,7 +86,7 @@ void cover_by_definition(const Setting& setting, const Rules& rules, const Trian
 }
 
 Explanation explain(const Setting& setting, const Rules& rules, const Triangle& triangle, int x, int y, int sample) {
-  const Outline outline(rules, triangle);
+  const Outline outline(rules, snapped_vertices(rules, triangle));
   const Point p = sample_point(rules, setting.sample_locations[static_cast<std::size_t>(sample)], x, y);
   Explanation result;
   result.subpixel_bits = rules.subpixel_bits;

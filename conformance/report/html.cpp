@@ -80,8 +80,10 @@ class Page {
         "<title>Edgecase: {} failed, {} passed</title>\n<style>\n{}</style>\n</head>\n<body>\n",
         grouped(totals_.fail), grouped(totals_.pass), kPageStyle);
     add("<header>\n<h1>Triangle coverage, sample by sample</h1>\n"
-        "<p class=\"quiet\">edgecase {} &middot; seed {} &middot; {} in {:.1f} s</p>\n<ul class=\"says\">\n",
-        markup(report_.version), report_.seed, counted(totals_.cases(), "result"), report_.seconds);
+        "<p class=\"quiet\">edgecase {} &middot; rules {} &middot; seed {} &middot; {} in {:.1f} s</p>\n<ul "
+        "class=\"says\">\n",
+        markup(report_.version), markup(report_.rules), report_.seed, counted(totals_.cases(), "result"),
+        report_.seconds);
     for (const SubjectSummary& subject : subjects_) {
       const Verdict worst = subject.totals.fail != 0    ? Verdict::fail
                             : subject.totals.known != 0 ? Verdict::known

@@ -49,6 +49,7 @@ Json to_value(const Result& result) {
           {"doubled", result.doubled},
           {"known_triangles", result.known_triangles},
           {"unpredicted", result.unpredicted},
+          {"may", result.may},
           {"cracks", to_value(result.cracks)},
           {"first", to_value(result.first)},
           {"reason", text_or_null(result.reason)},
@@ -68,6 +69,7 @@ Json to_value(const Totals& totals) {
           {"doubled", totals.doubled},
           {"known_triangles", totals.known_triangles},
           {"unpredicted", totals.unpredicted},
+          {"may", totals.may},
           {"cracks", totals.cracks.holes + totals.cracks.doubled}};
 }
 
@@ -97,6 +99,7 @@ std::string to_json(const Report& report) {
   totals["seconds"] = report.seconds;
   const Json root = {{"edgecase", report.version},
                      {"seed", report.seed},
+                     {"rules", report.rules},
                      {"results", std::move(results)},
                      {"categories", categories_of(report)},
                      {"totals", std::move(totals)}};

@@ -57,6 +57,7 @@ std::string to_junit(const Report& report) {
         "    <properties>\n",
         markup_attribute(subject.name), subject.totals.cases(), subject.totals.fail, subject.totals.skip, seconds);
     append_property("edgecase", report.version, out);
+    append_property("rules", report.rules, out);
     append_property("seed", fmt::format("{}", report.seed), out);
     if (!subject.device.empty()) append_property("device", subject.device, out);
     out += "    </properties>\n";

@@ -64,7 +64,9 @@ struct Result {
   std::uint64_t doubled = 0;
   std::uint64_t known_triangles = 0;  ///< triangles that are wrong as a known deviation says
   std::uint64_t unpredicted = 0;      ///< triangles not compared, because no model says what the subject has to cover
-  Cracks cracks;                      ///< of meshes in clip space; no fault by themselves
+  std::uint64_t may = 0;  ///< samples that the rules leave open, covered otherwise than by rounding to nearest even and
+                          ///< the top-left rule
+  Cracks cracks;          ///< of meshes in clip space; no fault by themselves
   std::optional<FirstWrong> first;
   /// Why it failed or was skipped, or the cause of the known deviation; empty if it passed.
   std::string reason;
@@ -76,6 +78,7 @@ struct Result {
 struct Report {
   std::string version;
   std::uint64_t seed = 0;
+  std::string rules = "exact";  ///< the set of rules that was asked for
   std::vector<Result> results;
   double seconds = 0;  ///< wall-clock time of the run; less than the sum over its results if they ran side by side
 };
@@ -83,9 +86,9 @@ struct Report {
 /// Every form takes any bytes as text: what is no UTF-8 becomes U+FFFD, and control characters are made visible as \x1b
 /// where the format could not carry them or would act on them.
 
-/// {"edgecase": version, "seed", "results": [...], "categories": [...], "totals": {...}}: categories has one entry for
-/// each subject and category, with the causes of what is known or skipped. Every key is always there; what does not
-/// apply is null. The pictures are not in it.
+/// {"edgecase": version, "seed", "rules", "results": [...], "categories": [...], "totals": {...}}: categories has one
+/// entry for each subject and category, with the causes of what is known or skipped. Every key is always there; what
+/// does not apply is null. The pictures are not in it.
 std::string to_json(const Report& report);
 
 /// JUnit XML: a suite per subject. A known deviation is a passed test with its cause as output.

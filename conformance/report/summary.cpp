@@ -43,6 +43,7 @@ void Totals::add(const Result& result) {
   missing += result.missing;
   unexpected += result.unexpected;
   doubled += result.doubled;
+  may += result.may;
   known_triangles += result.known_triangles;
   unpredicted += result.unpredicted;
   cracks.add(result.cracks);
@@ -119,7 +120,9 @@ std::string sentence(const SubjectSummary& subject) {
   if (totals.samples_compared == 0) {
     return fmt::format("{} passed {}, which compared no sample{}", who, counted(ran, "case"), skipped);
   }
-  return fmt::format("{} agrees on every one of {}{}", who, compared, skipped);
+  const std::string open =
+      totals.may == 0 ? "" : fmt::format(", {} of them open and covered otherwise than top-left", grouped(totals.may));
+  return fmt::format("{} agrees on every one of {}{}{}", who, compared, open, skipped);
 }
 
 std::string wrong_samples(std::uint64_t missing, std::uint64_t unexpected, std::uint64_t doubled) {

@@ -179,9 +179,9 @@ std::string to_text(const Report& report, bool terminal) {
   out += '\n';
   for (const SubjectSummary& subject : subjects) out += sentence(subject) + ".\n";
   const Totals totals = totals_of(report);
-  out += fmt::format("{} passed, {} failed, {} known to deviate, {} skipped, in {:.1f} s (seed {}).\n",
+  out += fmt::format("{} passed, {} failed, {} known to deviate, {} skipped, in {:.1f} s (rules {}, seed {}).\n",
                      grouped(totals.pass), grouped(totals.fail), grouped(totals.known), grouped(totals.skip),
-                     report.seconds, report.seed);
+                     report.seconds, report.rules, report.seed);
   return out;
 }
 

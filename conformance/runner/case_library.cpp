@@ -34,6 +34,11 @@ bool looks_like_a_path(const std::string& pattern) {
 Error no_such_case(const std::string& pattern, const std::vector<CaseFile>& files) {
   std::vector<std::string_view> names;
   for (const CaseFile& file : files) names.push_back(file.name);
+  const std::string folder = pattern + (pattern.ends_with('/') ? "" : "/");
+  if (std::ranges::any_of(names, [&](std::string_view name) { return name.starts_with(folder); })) {
+    return {ErrorKind::bad_input,
+            fmt::format("no case is called \"{0}\"; those in the folder are '{1}*'", pattern, folder)};
+  }
   const auto nearest = nearest_name(pattern, names);
   return {ErrorKind::bad_input, fmt::format("no case is called \"{}\"{}", pattern,
                                             nearest ? fmt::format("; did you mean \"{}\"?", *nearest)

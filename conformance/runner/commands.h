@@ -30,6 +30,7 @@ struct RunOptions {
   /// Names of generators or metamorphic checks.
   std::vector<std::string> generators;
   std::vector<std::string> categories;
+  std::string rules = "exact";  ///< the name of a RuleSet
   std::uint64_t count = 50'000;
   std::uint64_t seed = 1;
   std::string json;
@@ -44,6 +45,7 @@ struct ExhaustOptions {
   std::string subject = "edgecase";
   std::string json;
   std::string state;
+  std::string report;
   int jobs = 1;
 };
 

@@ -110,6 +110,7 @@ class Exhauster {
       }
       if (wrong != 0) {
         found.wrong += static_cast<std::uint64_t>(std::popcount(wrong));
+        found.missing += static_cast<std::uint64_t>(std::popcount(wrong & must_[i]));
         const int bit = std::countr_zero(wrong);
         if (!found.first) {
           found.first = {first + i, bit % plan_.target.width, bit / plan_.target.width, (must_[i] >> bit & 1) != 0};
@@ -213,6 +214,7 @@ void Exhaustion::add(const Exhaustion& later) {
   triangles += later.triangles;
   samples_compared += later.samples_compared;
   wrong += later.wrong;
+  missing += later.missing;
   unexplained += later.unexplained;
   if (!first) first = later.first;
 }

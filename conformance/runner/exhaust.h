@@ -39,6 +39,7 @@ struct Exhaustion {
   std::uint64_t triangles = 0;
   std::uint64_t samples_compared = 0;
   std::uint64_t wrong = 0;        ///< samples
+  std::uint64_t missing = 0;      ///< of these; the others are unexpected
   std::uint64_t unexplained = 0;  ///< triangles wrong, or with a known deviation: not as it predicts
   std::optional<Wrong> first;     ///< the first wrong sample
   double seconds = 0;             ///< wall-clock time, that of earlier runs included

@@ -8,13 +8,16 @@
 #include "conformance/compare/atomic_file.h"
 #include "conformance/runner/commands.h"
 #include "conformance/runner/exhaust.h"
+#include "conformance/runner/exhaust_report.h"
 #include "conformance/runner/exhaust_state.h"
+#include "conformance/runner/findings.h"
 #include "conformance/runner/progress.h"
 
 namespace edgecase::conformance {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 constexpr auto kBetweenStates = std::chrono::seconds(1);
 
@@ -35,6 +38,8 @@ std::string to_json(const ExhaustPlan& plan, const std::string& device, const Ex
             {"triangles", found.triangles},
             {"samples_compared", found.samples_compared},
             {"wrong", found.wrong},
+            {"missing", found.missing},
+            {"unexpected", found.wrong - found.missing},
             {"unexplained_triangles", found.unexplained},
             {"first", nullptr},
             {"seconds", found.seconds},
@@ -108,14 +113,21 @@ int exhaust_command(const DataFiles& data, const ExhaustOptions& options) {
   const std::string device = (*subject)->info().device;
   plan.deviation = find_known_deviation(*known, options.subject, device);
   if (const auto error = check_exhaust(plan, **subject)) return fail(*error);
+  if (const auto error = unwritable(options.report)) return fail(*error);
   const auto found = run(plan, std::move(*subject), options.state);
   if (!found) return fail(found.error());
+  if (!options.report.empty()) {
+    if (auto written = write_exhaust_report(options.report, plan, device, *found); !written) {
+      return fail(written.error());
+    }
+  }
   if (!options.json.empty()) {
     if (auto written = write_file_atomically(options.json, to_json(plan, device, *found)); !written) {
       return fail(written.error());
     }
   }
   fmt::print("{}", to_text(plan, *found));
+  if (!options.report.empty()) fmt::print("Report: {}\n", (fs::path(options.report) / "index.html").string());
   if (std::fflush(stdout) != 0) return fail({ErrorKind::bad_input, "standard output: no space left or closed"});
   return found->unexplained == 0 ? kAsExpected : kMismatch;
 }

@@ -81,6 +81,7 @@ std::string exhaust_state(const ExhaustPlan& plan, std::string_view device, cons
   Json json = identity(plan, device);
   json["triangles"] = done.triangles;
   json["wrong"] = done.wrong;
+  json["missing"] = done.missing;
   json["unexplained"] = done.unexplained;
   json["first"] = to_json(done.first);
   json["seconds"] = done.seconds;
@@ -114,6 +115,7 @@ tl::expected<Exhaustion, Error> load_exhaust_state(const std::filesystem::path& 
   done.triangles = reader.number("triangles", exhaust_triangles(plan));
   done.samples_compared = done.triangles * pixels;
   done.wrong = reader.number("wrong", done.samples_compared);
+  done.missing = reader.number("missing", done.wrong);
   done.unexplained = reader.number("unexplained", done.triangles);
   done.seconds = reader.seconds("seconds");
   const Json* first = reader.find("first");

@@ -1,11 +1,18 @@
 #include "conformance/runner/judge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <span>
 
+#include "conformance/oracle/allowed.h"
 #include "conformance/oracle/oracle.h"
+#include "conformance/runner/mesh_choices.h"
 #include "conformance/scene/grid.h"
+#include "conformance/scene/window_position.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -30,8 +37,12 @@ Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView ex
 
 }  // namespace
 
-std::optional<std::string> Judge::refusal(const Scene& scene) const {
+std::optional<std::string> Judge::refusal(const Scene& scene, const RuleSet& rule_set) const {
   if (auto refused = subject_.refusal(scene)) return refused;
+  if (!rule_set.exact()) {
+    if (exact_window_triangles(scene)) return std::nullopt;
+    return fmt::format("{} does not say how clipping and the viewport transform are rounded", rule_set.name);
+  }
   if (!reference_.judges(scene)) return reference_.unjudged();
   return std::nullopt;
 }
@@ -40,7 +51,15 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   const auto drawn = subject_.draw_in_place(batch.scene, scratch_);
   if (!drawn) return tl::unexpected(drawn.error());
   observed_ = *drawn;
-  if (auto known = reference_.expect(batch.scene, first_triangle, expected_); !known) return known;
+  window_.reset();
+  if (batch.scene.clip && !batch.rule_set->exact()) {
+    window_ =
+        Scene{batch.scene.setting, batch.scene.rules, exact_window_triangles(batch.scene).value(), batch.scene.meshes};
+  }
+  if (auto known = reference_.expect(judged_scene(batch), first_triangle, expected_); !known) return known;
+  if (!batch.rule_set->exact()) {
+    if (auto granted = grant_choices(batch, first_triangle, outcome); !granted) return granted;
+  }
 
   // What nobody predicts is not compared, and not counted as compared.
   const MaskLayout layout(batch.scene.setting);
@@ -60,17 +79,61 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   return {};
 }
 
+// What Rules and the top-left rule cover is legal under every set. So only the samples that the subject covers
+// otherwise are asked for, and where that is legal, too, it becomes what is expected.
+tl::expected<void, Error> Judge::grant_choices(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
+  const Scene& scene = judged_scene(batch);
+  const std::size_t words = MaskLayout(scene.setting).words();
+  std::vector<std::uint64_t> asked(words), must(words), may(words);
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    if (std::ranges::equal(expected_[i], observed_[i])) continue;
+    std::ranges::transform(expected_[i], observed_[i], asked.begin(), std::bit_xor<>());
+    oracle::allow_by_definition(scene.setting, scene.rules, *batch.rule_set, scene.triangles[i], asked, must, may);
+    const bool legal = std::ranges::equal(may, asked);
+    if (!legal || (first_triangle + i) % kOracleShare == 0) {
+      if (auto confirmed = reference_.confirm(scene, i, expected_[i]); !confirmed) return confirmed;
+      if (auto confirmed = confirm_choices(batch, i, asked, must, may); !confirmed) return confirmed;
+    }
+    for (std::size_t w = 0; w < words; ++w) {
+      outcome.may += static_cast<std::uint64_t>(std::popcount(may[w]));
+      expected_[i][w] = (expected_[i][w] & ~asked[w]) | must[w] | (observed_[i][w] & may[w]);
+    }
+  }
+  return {};
+}
+
+// Of what is wrong the first sample is enough: a faulty subject may have millions, and each choice is a triangle.
+tl::expected<void, Error> Judge::confirm_choices(const Batch& batch, std::size_t triangle, MaskView asked,
+                                                 MaskView must, MaskView may) const {
+  const Scene& scene = judged_scene(batch);
+  std::vector<std::uint64_t> one(asked.size()), must_again(asked.size()), may_again(asked.size());
+  std::size_t w = 0;
+  while (w + 1 < asked.size() && (asked[w] & ~may[w]) == 0) ++w;
+  const std::uint64_t wrong = asked[w] & ~may[w];
+  if (wrong != 0) one[w] = wrong & -wrong;
+  if (wrong == 0) std::ranges::copy(asked, one.begin());
+  oracle::allow_by_shift(scene.setting, scene.rules, *batch.rule_set, scene.triangles[triangle], one, must_again,
+                         may_again);
+  for (w = 0; w < asked.size(); ++w) {
+    if (must_again[w] == (must[w] & one[w]) && may_again[w] == (may[w] & one[w])) continue;
+    return tl::unexpected(
+        Error{ErrorKind::subject, fmt::format("the oracles differ on what {} allows of {}", batch.rule_set->name,
+                                              coordinates(scene.triangles[triangle]))});
+  }
+  return {};
+}
+
 // Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and every
 // wrong one goes to both oracles before anybody is blamed.
 tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
-    const bool concerned = may_deviate(batch.scene, i);
+    const bool concerned = may_deviate(judged_scene(batch), i);
     if (all_right && !concerned) continue;
     const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
     if (!wrong && !concerned) continue;
-    if (wrong) {
+    if (wrong && batch.rule_set->exact()) {  // else grant_choices has seen to it
       if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
     }
     const bool known = concerned && as_predicted(batch, i);
@@ -92,22 +155,27 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
 }
 
 void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
-  if (batch.scene.meshes.empty()) return;
-  if (batch.scene.clip) return judge_clip_meshes(batch, first_triangle, outcome);
-  const float scale = std::ldexp(1.0f, batch.scene.rules.subpixel_bits);
-  WatertightChecker checker(batch.scene.setting, batch.scene.rules.subpixel_bits);
-  const bool snapped_already = all_on_grid(batch.scene.triangles, scale);
-  for (const Mesh& mesh : batch.scene.meshes) {
+  const Scene& scene = judged_scene(batch);
+  if (scene.meshes.empty() || batch.rule_set->on_edge == OnEdge::undefined) return;
+  if (scene.clip) return judge_clip_meshes(batch, first_triangle, outcome);
+  const float scale = std::ldexp(1.0f, scene.rules.subpixel_bits);
+  WatertightChecker checker(scene.setting, scene.rules.subpixel_bits);
+  const bool snapped_already = all_on_grid(scene.triangles, scale);
+  for (const Mesh& mesh : scene.meshes) {
     snapped_.resize(std::max(snapped_.size(), mesh.count));
     for (std::size_t i = 0; i < mesh.count; ++i) {
       for (std::size_t v = 0; v < 3; ++v) {
-        const Position& p = batch.scene.triangles[mesh.first + i][v];
-        snapped_[i][v] = snapped_already ? grid_point(p, scale) : oracle::snap(batch.scene.rules, p);
+        const Position& p = scene.triangles[mesh.first + i][v];
+        snapped_[i][v] = snapped_already ? grid_point(p, scale) : oracle::snap(scene.rules, p);
       }
     }
     Watertightness found;
-    checker.check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
-                  first_triangle + mesh.first, found);
+    if (const auto open = open_samples(scene, *batch.rule_set, mesh)) {
+      checker.check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
+                    first_triangle + mesh.first, found, *open);
+    } else {
+      found.meshes = found.folded_meshes = 1;
+    }
     outcome.meshes.add(found);
     for (const auto& torn : {found.first_missing, found.first_doubled}) {
       if (!torn) continue;
@@ -115,7 +183,7 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
       wrong.triangle -= first_triangle;
       bool known = deviation_ != nullptr;
       for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) {
-        known = may_deviate(batch.scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected_[i], observed_[i]);
+        known = may_deviate(scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected_[i], observed_[i]);
       }
       if (!known) ++outcome.unexplained;
       add_finding(batch, mesh.first, mesh.count, wrong, known, outcome);
@@ -156,12 +224,20 @@ void Judge::judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Ou
 
 bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   predicted_.resize(observed_[triangle].size());
-  if (batch.scene.clip) {
+  const Scene& scene = judged_scene(batch);
+  if (scene.clip) {
     predict_clipped(triangle);
   } else {
-    deviation_->predict(batch.scene.setting, batch.scene.triangles[triangle], predicted_);
+    deviation_->predict(scene.setting, scene.triangles[triangle], predicted_);
   }
   return std::ranges::equal(predicted_, observed_[triangle]);
+}
+
+void Judge::show_clipped(std::size_t first, std::size_t count, Finding& finding) const {
+  const ClippedView clipped = clipped_view(reference_.window(), first, count);
+  finding.window = clipped.scene;
+  finding.expected = clipped.masks(expected_);
+  finding.observed = clipped.masks(observed_);
 }
 
 // What the deviation makes of the triangles that clipping left, where it concerns them, and the rules where it does
@@ -179,29 +255,6 @@ void Judge::predict_clipped(std::size_t triangle) {
     }
   }
   unite_parts(window, triangle, parts_, 0, predicted_);
-}
-
-// The triangles that clipping left of one are drawn together: the first of them bears the masks of them all.
-void Judge::show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const {
-  const WindowScene& window = reference_.window();
-  finding.window.setting = window.scene.setting;
-  finding.window.rules = window.scene.rules;
-  std::vector<std::size_t> bearers;
-  std::vector<Triangle>& shown = finding.window.triangles;
-  for (std::size_t triangle = first; triangle < first + count; ++triangle) {
-    bearers.push_back(shown.size());
-    for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
-      shown.push_back(window.scene.triangles[i]);
-    }
-    if (shown.size() == bearers.back()) shown.push_back({});  // nothing is left, and nothing expected
-  }
-  const auto copy_all = [&](const auto& from, MaskBatch& to) {
-    to.reset(layout, shown.size());
-    std::ranges::fill(to.data(), 0);
-    for (std::size_t i = 0; i < count; ++i) std::ranges::copy(from[first + i], to[bearers[i]].begin());
-  };
-  copy_all(expected_, finding.expected);
-  copy_all(observed_, finding.observed);
 }
 
 // What is expected of a torn mesh is what was observed, but with each sample inside covered once.
@@ -222,7 +275,7 @@ void Judge::add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& w
   finding.scene.clip =
       ClipGeometry{batch.scene.clip->viewport, std::vector(begin, begin + static_cast<std::ptrdiff_t>(mesh.count))};
   finding.scene.meshes = {{0, mesh.count}};
-  show_clipped(mesh.first, mesh.count, MaskLayout(batch.scene.setting), finding);
+  show_clipped(mesh.first, mesh.count, finding);
   finding.expected = finding.observed;
   for (std::size_t word = 0; word < inside.size(); ++word) {
     std::uint64_t open = inside[word];
@@ -264,11 +317,16 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   };
   if (batch.scene.clip) {
     finding.scene.clip = ClipGeometry{batch.scene.clip->viewport, slice(batch.scene.clip->triangles)};
-    show_clipped(first, count, layout, finding);
   } else {
     finding.scene.triangles = slice(batch.scene.triangles);
     if (torn_mesh) finding.scene.meshes.push_back({0, count});
+  }
+  if (batch.scene.clip && !window_) {
+    show_clipped(first, count, finding);
+  } else {
     finding.window = finding.scene;
+    finding.window.clip.reset();
+    finding.window.triangles = slice(judged_scene(batch).triangles);
     copy_masks(layout, expected_, first, count, finding.expected);
     copy_masks(layout, observed_, first, count, finding.observed);
   }
@@ -280,6 +338,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   }
   if (batch.scene.clip) finding.wrong.triangle = 0;
   finding.known = known;
+  finding.rule_set = batch.rule_set;
   finding.part_index = part_of(batch, first);
   outcome.findings.push_back(std::move(finding));
 }

@@ -15,6 +15,7 @@
 #include "conformance/runner/reference.h"
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
+#include "conformance/scene/rule_set.h"
 #include "conformance/scene/scene.h"
 #include "conformance/subjects/subject.h"
 
@@ -28,20 +29,30 @@ struct Batch {
   };
   Scene scene;
   std::vector<Part> parts;
-  /// One mask a triangle of samples that a specification leaves open; empty if there are none.
-  std::vector<std::uint64_t> may;
+  /// One mask a triangle of samples that the case leaves open; empty if there are none.
+  std::vector<std::uint64_t> may{};
+  /// What the triangles are judged by.
+  const RuleSet* rule_set = &kExactRules;
+};
+
+/// A change that must not matter, and did.
+struct Change {
+  std::string about;
+  Triangle before;  ///< what the finding's triangles cover together was this one's
 };
 
 /// One wrong sample with all it takes to show it: the triangle alone, or the mesh if it is the mesh that is torn.
 struct Finding {
   Scene scene;
-  Scene window;  ///< the scene, or what the subject's model makes of it in the window
+  Scene window;  ///< the scene, or what the subject's model or a change makes of it in the window
   MaskBatch expected;
   MaskBatch observed;
   WrongSample wrong;             ///< its triangle counts in `window`
   std::uint64_t part_index = 0;  ///< the generator's scene number
   bool known = false;            ///< predicted by a known deviation's model
-  bool crack = false;            ///< a mesh that clipping tore; known if the model of the clipper predicts it
+  std::optional<Change> change{};
+  const RuleSet* rule_set = &kExactRules;
+  bool crack = false;  ///< a mesh that clipping tore; known if the model of the clipper predicts it
 };
 
 /// What came of one subject on one case or generator. Sums up over batches.
@@ -51,6 +62,7 @@ struct Outcome {
   Cracks cracks;                      ///< of meshes in clip space
   std::uint64_t known_triangles = 0;  ///< wrong as predicted
   std::uint64_t unpredicted = 0;      ///< in clip space beyond the reach of the model; not compared
+  std::uint64_t may = 0;              ///< samples that the rule set leaves open, covered otherwise than by Rules
   std::uint64_t unexplained = 0;      ///< triangles wrong and not predicted, or predicted wrong and right
   /// The first few of each kind.
   std::vector<Finding> findings;
@@ -63,13 +75,19 @@ class Judge {
       : subject_(subject), reference_(reference), deviation_(deviation) {}
 
   /// Why the scene cannot be judged: the subject refuses it, or nobody knows what it has to cover.
-  std::optional<std::string> refusal(const Scene& scene) const;
+  std::optional<std::string> refusal(const Scene& scene, const RuleSet& rule_set = kExactRules) const;
 
   /// Draws `batch`, which must not be refused, and adds what came of it. `first_triangle` is the number of the
   /// batch's first triangle in the whole run. An error means that subject or suite failed, not that samples are wrong.
   tl::expected<void, Error> judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
 
  private:
+  /// The scene in the window if the rule set is not exact: no model of a driver has a say in what it demands.
+  const Scene& judged_scene(const Batch& batch) const { return window_ ? *window_ : batch.scene; }
+  tl::expected<void, Error> grant_choices(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  /// By the other method.
+  tl::expected<void, Error> confirm_choices(const Batch& batch, std::size_t triangle, MaskView asked, MaskView must,
+                                            MaskView may) const;
   tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
   void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the known deviation may concern that triangle of the scene last given to the reference.
@@ -81,7 +99,7 @@ class Judge {
                    Outcome& outcome) const;
 
   void predict_clipped(std::size_t triangle);
-  void show_clipped(std::size_t first, std::size_t count, const MaskLayout& layout, Finding& finding) const;
+  void show_clipped(std::size_t first, std::size_t count, Finding& finding) const;
   /// The generator's scene number of that triangle of the batch.
   static std::uint64_t part_of(const Batch& batch, std::size_t triangle);
   /// `inside` is what has to be covered once.
@@ -94,6 +112,7 @@ class Judge {
   MaskBatch expected_;
   MaskBatchView observed_;  ///< where the subject has them, or in scratch_
   MaskBatch scratch_;
+  std::optional<Scene> window_;
   std::vector<std::uint64_t> predicted_;
   MaskBatch parts_;
   std::vector<GridTriangle> snapped_;

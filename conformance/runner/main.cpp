@@ -5,6 +5,7 @@
 
 #include "conformance/bench/bench.h"
 #include "conformance/runner/commands.h"
+#include "conformance/scene/rule_set.h"
 #include "conformance/subjects/registry.h"
 
 namespace {
@@ -27,6 +28,12 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--category", options.categories, "Only what is of this category; may be repeated")
       ->type_name("C")
       ->allow_extra_args(false);
+  std::vector<std::string> sets;
+  for (const RuleSet& set : kRuleSets) sets.emplace_back(set.name);
+  run->add_option("--rules", options.rules, "Judge by what that specification says, and leave open what it does")
+      ->type_name("SET")
+      ->check(CLI::IsMember(sets))
+      ->capture_default_str();
   run->add_option("--count", options.count, "Triangles of each generator, at least; scenes are whole")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}))
@@ -34,7 +41,9 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--seed", options.seed, "Seed of the generators")->type_name("N")->capture_default_str();
   run->add_option("--json", options.json, "Write the results as JSON")->type_name("FILE");
   run->add_option("--junit", options.junit, "Write the results as JUnit XML")->type_name("FILE");
-  run->add_option("--report", options.report, "Folder for pictures, reproductions and index.html")->type_name("DIR");
+  run->add_option("--report", options.report,
+                  "Folder for pictures, reproductions and index.html; edgecase-report if there are any")
+      ->type_name("DIR");
   run->add_option("--jobs", options.jobs, "Threads")->type_name("N")->check(CLI::Range(1, 1024))->capture_default_str();
 }
 
@@ -68,6 +77,8 @@ void add_exhaust(CLI::App& app, ExhaustOptions& options) {
       ->type_name("WxH");
   exhaust->add_option("--subject", options.subject, "Rasterizer under test")->type_name("S")->capture_default_str();
   exhaust->add_option("--json", options.json, "Write the result as JSON")->type_name("FILE");
+  exhaust->add_option("--report", options.report, "Folder for a picture and a reproduction of what is wrong first")
+      ->type_name("DIR");
   exhaust->add_option("--state", options.state, "Keep there how far it has come, and go on from there")
       ->type_name("FILE");
   exhaust->add_option("--jobs", options.jobs, "Threads")

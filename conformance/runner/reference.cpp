@@ -11,11 +11,6 @@
 namespace edgecase::conformance {
 namespace {
 
-std::string coordinates(const Triangle& triangle) {
-  return fmt::format("({:a}, {:a}) ({:a}, {:a}) ({:a}, {:a})", triangle[0].x, triangle[0].y, triangle[1].x,
-                     triangle[1].y, triangle[2].x, triangle[2].y);
-}
-
 // Exact: a grid coordinate has at most 24 bits.
 Position snapped(const Rules& rules, const Position& position) {
   const GridPoint p = oracle::snap(rules, position);
@@ -24,6 +19,11 @@ Position snapped(const Rules& rules, const Position& position) {
 }
 
 }  // namespace
+
+std::string coordinates(const Triangle& triangle) {
+  return fmt::format("({:a}, {:a}) ({:a}, {:a}) ({:a}, {:a})", triangle[0].x, triangle[0].y, triangle[1].x,
+                     triangle[1].y, triangle[2].x, triangle[2].y);
+}
 
 tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must) {
   window_.reset();

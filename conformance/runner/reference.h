@@ -22,6 +22,9 @@ namespace edgecase::conformance {
 /// One in this many triangles that our fast rasterizer answers for is given to both oracles as well.
 inline constexpr std::uint64_t kOracleShare = 256;
 
+/// The vertices as hexadecimal floats.
+std::string coordinates(const Triangle& triangle);
+
 class Reference {
  public:
   /// `fast` answers in bulk, and the oracles judge it; without it the oracle by definition answers for every triangle.

@@ -12,6 +12,7 @@
 #include "conformance/runner/subject_model.h"
 #include "conformance/runner/testcase.h"
 #include "conformance/scene/error.h"
+#include "conformance/scene/rule_set.h"
 #include "conformance/subjects/subject.h"
 
 namespace edgecase::conformance {
@@ -20,6 +21,9 @@ struct RunPlan {
   std::vector<std::string> subjects;
   std::vector<Testcase> testcases;
   std::vector<KnownDeviation> known_deviations;
+  /// What is asked of the subjects. Unless it is exact, a case's own set is not, and no known deviation excuses
+  /// anything.
+  const RuleSet* rule_set = &kExactRules;
   std::uint64_t count = 0;  ///< triangles of each generator, at least
   std::uint64_t seed = 1;
   int jobs = 1;
@@ -33,6 +37,9 @@ struct RunResult {
   Testcase testcase;
   Trial trial;
 };
+
+/// What explains the subject's deviations in a run of `plan`; null if nothing does.
+const KnownDeviation* excuse(const RunPlan& plan, const std::string& subject, const std::string& device);
 
 /// What a run compares if nothing is named.
 const std::vector<std::string>& default_subjects();

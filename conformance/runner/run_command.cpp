@@ -72,17 +72,6 @@ tl::expected<void, Error> keep_categories(const DataFiles& data, const std::vect
                                                                 fmt::join(names, "\" or \""))});
 }
 
-// A folder that cannot be written is found out before an hour of comparing, not after.
-std::optional<Error> unwritable(const std::string& folder) {
-  if (folder.empty()) return std::nullopt;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
-  if (!error && access(folder.c_str(), W_OK | X_OK) != 0) error = std::error_code(errno, std::generic_category());
-  if (!error) return std::nullopt;
-  return Error{ErrorKind::bad_input, fmt::format("report folder {}: {}", folder, error.message())};
-}
-
 struct Selection {
   std::vector<Case> cases;
   RunPlan plan;  ///< its testcases point into `cases`
@@ -108,6 +97,7 @@ tl::expected<void, Error> select(const DataFiles& data, const RunOptions& option
   for (const Case& c : selection.cases) plan.testcases.push_back({&c, nullptr, nullptr});
   plan.testcases.insert(plan.testcases.end(), chosen->begin(), chosen->end());
   if (auto kept = keep_categories(data, options.categories, plan.testcases); !kept) return kept;
+  plan.rule_set = find_rule_set(options.rules);
   plan.count = options.count;
   plan.seed = options.seed;
   plan.jobs = options.jobs;
@@ -148,6 +138,7 @@ int run_command(const DataFiles& data, const RunOptions& options) {
   Report report;
   report.version = EDGECASE_VERSION;
   report.seed = plan.seed;
+  report.rules = plan.rule_set->name;
   for (const RunResult& result : *runs) report.results.push_back(describe_result(result, plan));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 

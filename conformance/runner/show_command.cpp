@@ -19,57 +19,68 @@
 namespace edgecase::conformance {
 namespace {
 
-// Draws a case in clip space with the subject beside what the model of its clipper predicts. Mask i is that of the
-// case's triangle i; the outlines are those of what clipping leaves, and may be more or fewer.
-tl::expected<void, Error> add_clipped(const Case& file, const Scene& scene, Subject& subject, const SubjectModel& model,
-                                      Exhibit& exhibit) {
-  auto reference = reference_for(subject.info().name, &model);
-  if (!reference) return tl::unexpected(reference.error());
-  if (!reference->judges(scene)) {
-    return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot show {}: {}", subject.info().name,
-                                                                  file.name, reference->unjudged())});
-  }
-  MaskBatch must;
-  if (auto expected = reference->expect(scene, 0, must); !expected) return expected;
-  MaskBatch observed;
-  if (auto drawn = subject.draw(scene, observed); !drawn) return drawn;
-
-  Scene window = reference->window().scene;
-  const MaskLayout layout(window.setting);
-  window.triangles.resize(std::max(window.triangles.size(), must.size()));
-  exhibit = exhibit_of(window);
-  for (const auto& [from, to] : {std::pair(&must, &exhibit.must), std::pair(&observed, &exhibit.observed)}) {
-    to->reset(layout, window.triangles.size());
-    std::ranges::fill(to->data(), 0);
-    std::ranges::copy(from->data(), to->data().begin());
-  }
-  return {};
-}
-
-// Draws the case with the subject beside what the rules say.
-tl::expected<void, Error> add_subject(const Case& file, const std::string& name, Exhibit& exhibit) {
+// What a subject covers of a case beside what it has to cover: as the rules say, or in clip space as the model of its
+// clipper predicts.
+tl::expected<Exhibit, Error> with_subject(const Case& file, const std::string& name) {
   auto subject = make_subject(name);
   if (!subject) return tl::unexpected(subject.error());
+  const SubjectInfo& info = (*subject)->info();
   const auto model =
       SubjectModel::find(**subject, file.scene.clip.has_value()).value_or(SubjectModel::declared(**subject));
-  auto scene = scene_for(file, (*subject)->info(), model.rules(file.scene.setting.samples()));
-  const auto refusal = scene ? (*subject)->refusal(*scene) : scene.error();
-  if (refusal)
+  const auto scene = scene_for(file, info, model.rules(file.scene.setting.samples()));
+  auto reference = reference_for(name, &model);
+  if (!reference) return tl::unexpected(reference.error());
+  const auto refusal = scene ? Judge(**subject, *reference, nullptr).refusal(*scene) : scene.error();
+  if (refusal) {
     return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot draw {}: {}", name, file.name, *refusal)});
-  if (scene->clip) return add_clipped(file, *scene, **subject, model, exhibit);
-  exhibit = exhibit_of(*scene);
-  exhibit.subject = (*subject)->info().device.empty() ? name : fmt::format("{} ({})", name, (*subject)->info().device);
-  exhibit.must = by_the_rules(*scene);
-  if (auto drawn = (*subject)->draw(*scene, exhibit.observed); !drawn) return drawn;
+  }
+  MaskBatch must;
+  if (auto expected = reference->expect(*scene, 0, must); !expected) return tl::unexpected(expected.error());
+  MaskBatch observed;
+  if (auto drawn = (*subject)->draw(*scene, observed); !drawn) return tl::unexpected(drawn.error());
+  for (const std::size_t i : reference->unpredicted()) std::ranges::copy(observed[i], must[i].begin());
 
   Comparison comparison;
-  compare_masks(MaskLayout(scene->setting), exhibit.must.data(), {}, exhibit.observed.data(), 0, comparison);
+  compare_masks(MaskLayout(scene->setting), must.data(), {}, observed.data(), 0, comparison);
+  Exhibit exhibit;
+  if (scene->clip) {
+    const ClippedView clipped = clipped_view(reference->window(), 0, triangle_count(*scene));
+    exhibit = exhibit_of(clipped.scene);
+    exhibit.must = clipped.masks(must);
+    exhibit.observed = clipped.masks(observed);
+    if (comparison.first) comparison.first->triangle = clipped.bearers[comparison.first->triangle];
+  } else {
+    exhibit = exhibit_of(*scene);
+    exhibit.must = std::move(must);
+    exhibit.observed = std::move(observed);
+  }
+  exhibit.subject = info.device.empty() ? name : fmt::format("{} ({})", name, info.device);
+  exhibit.title = fmt::format("{}: {}", name, file.name.empty() ? file.path : file.name);
+  if (const std::size_t unpredicted = reference->unpredicted().size(); unpredicted != 0) {
+    exhibit.title += fmt::format(" ({} beyond the reach of its clipper's model, shown as drawn)", unpredicted);
+  }
   exhibit.wrong = comparison.first;
-  if (const auto& wrong = comparison.first) {
+  if (const auto& wrong = comparison.first; wrong && !scene->clip) {
     exhibit.explanation = oracle::explain(scene->setting, scene->rules, scene->triangles[wrong->triangle], wrong->x,
                                           wrong->y, wrong->sample);
   }
-  return {};
+  return exhibit;
+}
+
+tl::expected<Exhibit, Error> by_rules_alone(const Case& file) {
+  Scene scene = file.scene;
+  auto triangles = exact_window_triangles(scene);
+  if (!triangles) {
+    return tl::unexpected(
+        Error{ErrorKind::bad_input,
+              fmt::format("{}: what it covers depends on the clipper; --subject names one", file.path)});
+  }
+  scene.triangles = std::move(*triangles);
+  scene.clip.reset();
+  Exhibit exhibit = exhibit_of(scene);
+  exhibit.must = by_the_rules(scene);
+  exhibit.title = file.name.empty() ? file.path : file.name;
+  return exhibit;
 }
 
 }  // namespace
@@ -83,26 +94,13 @@ int show_command(const DataFiles& data, const ShowOptions& options) {
   }
   const Case& file = cases->front();
 
-  Exhibit exhibit;
-  if (options.subject.empty()) {
-    Scene scene = file.scene;
-    auto triangles = exact_window_triangles(scene);
-    if (!triangles) {
-      return fail({ErrorKind::bad_input, fmt::format("{}: what it covers depends on the clipper", file.path)});
-    }
-    scene.triangles = std::move(*triangles);
-    scene.clip.reset();
-    exhibit = exhibit_of(scene);
-    exhibit.must = by_the_rules(scene);
-  } else if (auto drawn = add_subject(file, options.subject, exhibit); !drawn) {
-    return fail(drawn.error());
-  }
-  exhibit.title = file.name.empty() ? file.path : file.name;
+  const auto exhibit = options.subject.empty() ? by_rules_alone(file) : with_subject(file, options.subject);
+  if (!exhibit) return fail(exhibit.error());
   if (!options.png.empty()) {
-    if (auto written = write_png(exhibit, options.png); !written) return fail(written.error());
+    if (auto written = write_png(*exhibit, options.png); !written) return fail(written.error());
     return kAsExpected;
   }
-  fmt::print("{}\n{}", file.about, text_picture(exhibit));
+  fmt::print("{}\n{}", file.about, text_picture(*exhibit));
   return kAsExpected;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -65,33 +66,96 @@ std::string limits(const Stability& stability) {
   return text;
 }
 
-double plotted(const StabilityRow& row) { return row.wrong == 0 ? kZeroLine : row.wrong_per_million(); }
-
-// A data block of gnuplot for each subject: value and error of the rows that `value` gives one.
-template <class Value>
-std::string blocks(const Stability& stability, const char* prefix, const Value& value) {
+// A colour and a symbol for each subject, the same in every panel: Okabe and Ito's colours, dark before light, and once
+// more with other symbols.
+std::string styles(const std::vector<std::string>& subjects) {
+  constexpr std::array kColours{"000000", "d55e00", "0072b2", "009e73", "cc79a7", "56b4e9", "e69f00"};
+  constexpr std::array kSymbols{7, 4, 8, 6, 10, 12, 5, 9, 2, 11, 13, 3};
   std::string text;
-  const auto subjects = names_of(stability, &StabilityRow::subject);
   for (std::size_t i = 0; i < subjects.size(); ++i) {
-    text += fmt::format("${}{} << END\n", prefix, i);
-    for (const StabilityRow& row : stability.rows) {
-      if (row.subject != subjects[i] || row.refused) continue;
-      if (const auto at = value(row)) text += fmt::format("{} {}\n", *at, plotted(row));
-    }
-    text += "END\n";
+    text += fmt::format("set linetype {} lc rgb '#{}' pt {} ps 1.4 lw 1.6\n", i + 1, kColours[i % kColours.size()],
+                        kSymbols[i % kSymbols.size()]);
   }
   return text;
 }
 
-// gnuplot's default colours and symbols differ from subject to subject; shown in both panels alike.
-std::string curves(const Stability& stability, const char* prefix, const char* style) {
-  std::string text = "plot ";
+std::string title_of(const std::string& subject) {
+  const std::size_t colon = subject.find(':');
+  return colon == std::string::npos ? subject + " (exact)" : subject.substr(colon + 1);
+}
+
+struct Point {
+  double x;
+  double y;
+};
+
+// One panel: the points that `points` makes of each row, a curve for each subject. An error of 0 lies on its own line.
+template <class Points>
+std::string panel(const Stability& stability, const std::string& name, const char* style, const Points& points) {
+  std::string data;
+  std::string plot;
   const auto subjects = names_of(stability, &StabilityRow::subject);
   for (std::size_t i = 0; i < subjects.size(); ++i) {
-    text += fmt::format("{}${}{} with {} lt {} pt {} ps 1.2 title '{}'", i == 0 ? "" : ", ", prefix, i, style, i + 1,
-                        i + 1, subjects[i]);
+    data += fmt::format("${}{} << END\n", name, i);
+    for (const StabilityRow& row : stability.rows) {
+      if (row.subject != subjects[i] || row.refused) continue;
+      for (const Point& point : points(row, i)) data += fmt::format("{} {}\n", point.x, std::max(point.y, kZeroLine));
+    }
+    data += "END\n";
+    plot += fmt::format("{}${}{} with {} lt {} title '{}'", i == 0 ? "plot " : ", ", name, i, style, i + 1,
+                        title_of(subjects[i]));
   }
-  return text + "\n";
+  return data + plot + "\n";
+}
+
+// Columns side by side, in each of which the subjects stand beside each other.
+class Columns {
+ public:
+  explicit Columns(std::size_t subjects) : subjects_(subjects) {}
+  double place(const std::string& label, std::size_t subject) {
+    const auto found = std::ranges::find(labels_, label);
+    const auto column = static_cast<double>(found - labels_.begin());
+    if (found == labels_.end()) labels_.push_back(label);
+    return column + 0.8 * ((static_cast<double>(subject) + 0.5) / static_cast<double>(subjects_) - 0.5);
+  }
+  std::string axis() const {
+    std::string tics;
+    std::string between;
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      tics += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", labels_[i], i);
+      if (i > 0)
+        between += fmt::format("set arrow from {0}-0.5,graph 0 to {0}-0.5,graph 1 nohead lc rgb '#dddddd'\n", i);
+    }
+    return fmt::format("unset logscale x\nset xrange [-0.5:{}.5]\nset xtics ({}) rotate by -20\nset grid noxtics\n{}",
+                       labels_.size() - 1, tics, between);
+  }
+
+ private:
+  std::size_t subjects_;
+  std::vector<std::string> labels_;
+};
+
+// How far each stays exact: a bar from 1 px, with what is beyond its end in words.
+std::string limits_panel(const Stability& stability) {
+  std::string data = "$limits << END\n";
+  std::string tics;
+  std::size_t i = 0;
+  for (const auto& [subject, limit] : stability.limits) {
+    const auto row = static_cast<double>(stability.limits.size() - i);
+    tics += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", title_of(subject), row);
+    data += fmt::format("{} {} {} \"{}\"\n", std::max(limit.pixels(), 1.0), row, i + 1, describe_limit(limit));
+    ++i;
+  }
+  return data + "END\n" +
+         fmt::format(
+             "unset logscale y\nset logscale x 2\nset xrange [1:137438953472]\nset yrange [0.3:{}.7]\n"
+             "set xtics (1, 16, 256, 4096, 32768) norotate\nset ytics ({})\nset grid xtics "
+             "noytics\n"
+             "set xlabel 'extent of the vertices, px'\nset ylabel ''\nunset key\n"
+             "set title 'The coordinate at which each first fails'\n"
+             "plot $limits using (1):2:($1-1):(0):3 with vectors nohead lw 9 lc variable, "
+             "$limits using 1:2:4 with labels left offset 1,0\n",
+             stability.limits.size(), tics);
 }
 
 }  // namespace
@@ -130,38 +194,44 @@ std::string stability_json(const Stability& stability, std::uint64_t seed) {
 }
 
 std::string stability_plot(const Stability& stability, const std::string& path) {
-  const auto all_families = names_of(stability, &StabilityRow::family);
-  std::string tics;
-  int columns = 0;
-  for (const StabilityRow& row : stability.rows) {
-    if (row.subject != stability.rows.front().subject || row.extent) continue;
-    tics += fmt::format("{}'{}' {}", columns == 0 ? "" : ", ", row.family, columns);
-    ++columns;
-  }
-  const auto column = [&](const StabilityRow& row) -> std::optional<double> {
-    if (row.extent) return std::nullopt;
-    const auto subjects = names_of(stability, &StabilityRow::subject);
-    const auto family = std::ranges::find(all_families, row.family) - all_families.begin();
-    const auto subject = std::ranges::find(subjects, row.subject) - subjects.begin();
-    return static_cast<double>(family) +
-           0.06 * (static_cast<double>(subject) - static_cast<double>(subjects.size()) / 2);
-  };
   std::string quoted;
   for (const char c : path) quoted += c == '\'' ? std::string(2, c) : std::string(1, c);
+  const auto subjects = names_of(stability, &StabilityRow::subject);
   std::string text = fmt::format(
-      "set terminal pngcairo size 1800,800 noenhanced font 'sans,12'\nset output '{}'\n"
-      "set multiplot layout 1,2 title 'What inexact arithmetics cost' font ',18'\n"
-      "set logscale y\nset ylabel 'wrong samples per million to be covered'\nset yrange [{}:1e7]\n"
-      "set format y '%g'\nset ytics add ('none' {})\nset grid xtics ytics lc rgb '#dddddd'\nset key outside below\n",
-      quoted, kZeroLine / 2, kZeroLine);
-  text += blocks(stability, "extent", [](const StabilityRow& row) { return row.extent; });
-  text += blocks(stability, "family", column);
-  text += "set logscale x 2\nset xlabel 'extent of the vertices, px'\n";
-  text += curves(stability, "extent", "linespoints");
-  text += fmt::format("unset logscale x\nset xlabel ''\nset xrange [-0.6:{}.6]\nset xtics ({}) rotate by -30\n",
-                      columns - 1, tics);
-  text += curves(stability, "family", "points");
-  return text + "unset multiplot\nset output\n";
+      "set terminal pngcairo size 1900,1350 noenhanced font 'sans,12'\nset output '{}'\n{}"
+      "set multiplot layout 2,2 columnsfirst title 'What inexact arithmetics cost on hard cases' font ',20'\n"
+      "set logscale y\nset yrange [{}:1e7]\nset format y '%.0f'\nset ytics add ('none' {})\n"
+      "set ytics add ('1 million' 1e6, '10 million' 1e7)\nset grid xtics ytics lc rgb '#dddddd'\n",
+      quoted, styles(subjects), kZeroLine / 2, kZeroLine);
+
+  text +=
+      "set logscale x 2\nset xrange [14:18000]\nset xlabel 'extent of the vertices, px'\nset key outside right\n"
+      "set ylabel 'wrong samples per million to be covered'\nset title 'By extent'\n";
+  text += panel(stability, "extent", "linespoints", [](const StabilityRow& row, std::size_t) -> std::vector<Point> {
+    if (!row.extent) return {};
+    return {{static_cast<double>(*row.extent), row.wrong_per_million()}};
+  });
+
+  Columns families(subjects.size());
+  const std::string by_family =
+      panel(stability, "family", "points", [&](const StabilityRow& row, std::size_t i) -> std::vector<Point> {
+        if (row.extent) return {};
+        return {{families.place(row.family, i), row.wrong_per_million()}};
+      });
+  text += families.axis() + "set xlabel ''\nset title 'By family'\n" + by_family + "unset arrow\n";
+
+  Columns meshes(subjects.size());
+  const std::string torn_meshes =
+      panel(stability, "mesh", "points", [&](const StabilityRow& row, std::size_t i) -> std::vector<Point> {
+        if (row.meshes == 0 || row.inside == 0) return {};
+        const double inside = static_cast<double>(row.inside) / 1e6;
+        const double gaps = meshes.place(row.family + ": gaps", i);
+        return {{gaps, static_cast<double>(row.gaps) / inside},
+                {meshes.place(row.family + ": doubles", i), static_cast<double>(row.doubles) / inside}};
+      });
+  text += meshes.axis() + "set ylabel 'per million samples inside meshes'\nset title 'Gaps and doubles in meshes'\n" +
+          torn_meshes + "unset arrow\n";
+  return text + limits_panel(stability) + "unset multiplot\nset output\n";
 }
 
 }  // namespace edgecase::conformance

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "conformance/oracle/allowed.h"
 #include "conformance/oracle/oracle.h"
 #include "conformance/runner/metamorphic_trial.h"
 #include "conformance/scene/window_position.h"
@@ -36,12 +37,15 @@ bool on_grid(const Scene& scene, int bits) {
   });
 }
 
-// Nothing if the oracle counts as many triangles on every sample as the case expects. A case in clip space that expects
-// something has exact window positions: the reader sees to it.
+// Nothing if the oracle counts as many triangles on every sample as the case expects, and leaves open what a case under
+// another set than the exact one expects to be open. A case in clip space that expects something has exact window
+// positions: the reader sees to it.
 std::optional<Error> contradiction(const Case& file, const Scene& scene) {
   const MaskLayout layout(scene.setting);
   std::vector<int> counts(layout.sample_count());
-  std::vector<std::uint64_t> mask(layout.words());
+  std::vector<bool> open(layout.sample_count());
+  std::vector<std::uint64_t> must(layout.words()), may(layout.words());
+  const std::vector<std::uint64_t> asked(layout.words(), ~std::uint64_t{0});
   const auto index = [&](int x, int y, int s) {
     return static_cast<std::size_t>((y * layout.target.width + x) * layout.samples + s);
   };
@@ -51,17 +55,28 @@ std::optional<Error> contradiction(const Case& file, const Scene& scene) {
         for (int s = 0; s < layout.samples; ++s) visit(x, y, s);
   };
   for (const Triangle& triangle : exact_window_triangles(scene).value_or(std::vector<Triangle>{})) {
-    oracle::cover_by_definition(scene.setting, scene.rules, triangle, mask);
-    for_each_sample([&](int x, int y, int s) { counts[index(x, y, s)] += covered(mask, layout.bit(x, y, s)) ? 1 : 0; });
+    if (file.rule_set->exact()) {
+      oracle::cover_by_definition(scene.setting, scene.rules, triangle, must);
+    } else {
+      oracle::allow_by_definition(scene.setting, scene.rules, *file.rule_set, triangle, asked, must, may);
+    }
+    for_each_sample([&](int x, int y, int s) {
+      const std::size_t bit = layout.bit(x, y, s);
+      counts[index(x, y, s)] += covered(must, bit) ? 1 : 0;
+      if (covered(may, bit)) open[index(x, y, s)] = true;
+    });
   }
   std::optional<Error> result;
   for_each_sample([&](int x, int y, int s) {
-    const int expected = file.expect->counts[index(x, y, s)];
-    const int actual = counts[index(x, y, s)];
-    if (result || expected == Expectation::kMay || expected == actual) return;
+    const std::size_t i = index(x, y, s);
+    const auto expected = file.expect->counts[i];
+    const bool right =
+        expected == Expectation::kMay ? open[i] || file.rule_set->exact() : !open[i] && counts[i] == expected;
+    if (result || right) return;
+    const auto said = [](bool is_open, int count) { return is_open ? "open" : fmt::format("{} triangles", count); };
     result = Error{ErrorKind::bad_input,
-                   fmt::format("{}: expect: pixel ({}, {}), sample {}: the case says {} triangles, the rules say {}",
-                               file.path, x, y, s, expected, actual)};
+                   fmt::format("{}: expect: pixel ({}, {}), sample {}: the case says {}, the rules say {}", file.path,
+                               x, y, s, said(expected == Expectation::kMay, expected), said(open[i], counts[i]))};
   });
   return result;
 }
@@ -101,39 +116,46 @@ std::string Testcase::category() const {
   return generator != nullptr ? std::string(generator->category) : kMetamorphicCategory;
 }
 
-tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules) {
+tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& own,
+                                           const RuleSet& rule_set) {
   Scene scene = file.scene;
-  if (subject.follows_scene_rules || scene.rules == rules) return scene;
+  const bool follows = subject.follows_scene_rules;
+  if (follows && rule_set.exact()) return scene;
+  const Rules rules{follows ? rule_set.subpixel_bits(scene.rules.subpixel_bits) : own.subpixel_bits,
+                    rule_set.exact() ? own.rounding : SnapRounding::nearest_even,
+                    rule_set.exact() && own.half_pixel_first};
+  if (scene.rules == rules) return scene;
   if (scene.rules.subpixel_bits == rules.subpixel_bits) {
     scene.rules = rules;
     return scene;
   }
   if (!on_grid(scene, scene.rules.subpixel_bits) || !on_grid(scene, rules.subpixel_bits)) {
-    return tl::unexpected(fmt::format("the case needs {} subpixel bits, the subject has {}", scene.rules.subpixel_bits,
-                                      rules.subpixel_bits));
+    return tl::unexpected(fmt::format("the case needs {} subpixel bits, {} has {}", scene.rules.subpixel_bits,
+                                      follows ? rule_set.name : "the subject", rules.subpixel_bits));
   }
   scene.rules = rules;
   return scene;
 }
 
-Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& judge) {
+Trial try_case(const Case& file, Subject& subject, const Rules& rules, const RuleSet& of_run, Judge& judge) {
+  const RuleSet& rule_set = of_run.exact() ? *file.rule_set : of_run;
   const Stopwatch watch;
   const double subject_seconds = subject.driver_seconds();
   Trial trial;
-  auto scene = scene_for(file, subject.info(), rules);
+  auto scene = scene_for(file, subject.info(), rules, rule_set);
   if (!scene) {
     trial.skipped = scene.error();
     return trial;
   }
-  trial.skipped = judge.refusal(*scene);
+  trial.skipped = judge.refusal(*scene, rule_set);
   if (trial.skipped) return trial;
   if (file.expect) trial.failure = contradiction(file, file.scene);
   if (trial.failure) return trial;
-  if (file.expect && scene->rules != file.scene.rules && contradiction(file, *scene)) {
+  if (file.expect && rule_set.exact() && scene->rules != file.scene.rules && contradiction(file, *scene)) {
     trial.own_snap = "covered as its own way of snapping says, which is not the one that the case expects";
   }
 
-  Batch batch{std::move(*scene), {{0, 0}}, {}};
+  Batch batch{std::move(*scene), {{0, 0}}, {}, &rule_set};
   batch.may = may_masks(file, batch.scene);
   if (auto judged = judge.judge(batch, 0, trial.outcome); !judged) trial.failure = judged.error();
   trial.seconds = watch.seconds();
@@ -141,12 +163,13 @@ Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& ju
   return trial;
 }
 
-Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, Judge& judge,
-                    const TrialOptions& options) {
+Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, const RuleSet& rule_set,
+                    Judge& judge, const TrialOptions& options) {
   const Stopwatch watch;
   const double subject_seconds = subject.driver_seconds();
   Trial trial;
   Batch batch;
+  batch.rule_set = &rule_set;
   batch.scene.setting = generator.setting;
   batch.scene.rules = rules;
   const std::size_t mask_bytes = MaskLayout(generator.setting).words() * sizeof(std::uint64_t);
@@ -164,7 +187,7 @@ Trial try_generator(const Generator& generator, Subject& subject, const Rules& r
       batch.parts.push_back({index, triangle_count(batch.scene)});
       append_scene(generator, options.seed, index++, batch.scene);
     }
-    trial.skipped = judge.refusal(batch.scene);
+    trial.skipped = judge.refusal(batch.scene, rule_set);
     if (trial.skipped) break;
     if (auto judged = judge.judge(batch, done, trial.outcome); !judged) {
       trial.failure = judged.error();

@@ -12,6 +12,7 @@
 #include "conformance/metamorphic/metamorphosis.h"
 #include "conformance/runner/categories.h"
 #include "conformance/runner/judge.h"
+#include "conformance/scene/rule_set.h"
 
 namespace edgecase::conformance {
 
@@ -33,8 +34,6 @@ struct Trial {
   std::optional<std::string> skipped;
   /// Set if the subject was judged by its own way of snapping because the case's would have it cover other samples.
   std::optional<std::string> own_snap;
-  /// What a metamorphosis changed first that it must not.
-  std::optional<std::string> changed;
   std::optional<Error> failure;  ///< the subject crashed, or the suite contradicts itself
   double seconds = 0;
   double subject_seconds = 0;  ///< of these, inside the subject's own drawing
@@ -47,13 +46,16 @@ struct TrialOptions {
   std::function<void(std::uint64_t)> on_progress = [](std::uint64_t) {};
 };
 
-/// Runs one testcase against one subject, judged by `rules` unless it follows each scene's own.
-Trial try_case(const Case& file, Subject& subject, const Rules& rules, Judge& judge);
-Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, Judge& judge,
-                    const TrialOptions& options);
+/// Runs one testcase against one subject, judged by `rules` unless it follows each scene's own. A `rule_set` that is
+/// not exact goes before that of the case.
+Trial try_case(const Case& file, Subject& subject, const Rules& rules, const RuleSet& rule_set, Judge& judge);
+Trial try_generator(const Generator& generator, Subject& subject, const Rules& rules, const RuleSet& rule_set,
+                    Judge& judge, const TrialOptions& options);
 
 /// The scene of `file` under the rules that a subject is judged by: the case's own if it follows each scene's, else
-/// `rules`, if the grid is the same or every vertex lies on both; otherwise why the case says nothing about it.
-tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules);
+/// `rules`, if the grid is the same or every vertex lies on both; otherwise why the case says nothing about it. Under a
+/// set that leaves the snap open, what is left of the rules is a grid that the set allows.
+tl::expected<Scene, std::string> scene_for(const Case& file, const SubjectInfo& subject, const Rules& rules,
+                                           const RuleSet& rule_set = kExactRules);
 
 }  // namespace edgecase::conformance

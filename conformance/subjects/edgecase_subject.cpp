@@ -114,9 +114,8 @@ Failure draw_fast(Fast& fast, const Scene& scene, const rasterizer::Target& targ
       }
     }
     if (scene.setting.cull != CullMode::none) {
-      // Those that are culled are left without area.
       for (auto& triangle : fast.snapped) {
-        if (is_culled<rasterizer::Format16_8>(scene.setting, triangle)) triangle = {};
+        if (is_culled<rasterizer::Format16_8>(scene.setting, triangle)) triangle = {};  // without area
       }
     }
     return with_view(scene.setting, target, [&](const auto& view) -> Failure {

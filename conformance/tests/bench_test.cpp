@@ -308,6 +308,10 @@ TEST(BenchOutput, TheTableHasEveryRasterizer) {
   rows[1].rasterizer = "plain:bits4";
   rows[1].wrong_per_million_real = 24;
   EXPECT_THAT(bench_table(rows), HasSubstr("real geometry"));
+  EXPECT_THAT(bench_table(rows), testing::Not(HasSubstr("as plain:vectorized")));
+  rows[2].rasterizer = "plain:vectorized";
+  EXPECT_THAT(bench_table(rows), testing::ContainsRegex("as plain:vectorized +full\nplain +0.2\nplain:bits4 +0.1\n"));
+  rows[2].rasterizer = "it's";
   EXPECT_THAT(bench_table(rows), testing::ContainsRegex("full +4 +300000 +0.5 +25 +24\n"));
 }
 

@@ -229,5 +229,24 @@ TEST(CaseFile, WritesSettingsAndOtherGeometry) {
 )");
 }
 
+constexpr std::string_view kUnderVulkan = R"({"about": "-", "source": "-", "target": [2, 1], "rules": "vulkan",
+  "triangles": [[["0.5", "0"], ["9", "0"], ["0.5", "9"]]], "expect": ["?#"]@})";
+
+tl::expected<Case, Error> under_vulkan(const std::string& more) {
+  std::string text(kUnderVulkan);
+  text.replace(text.find('@'), 1, more);
+  return parse_case(text, "a.json", "a");
+}
+
+TEST(CaseFile, NamesTheRulesThatJudgeIt) {
+  const auto read = under_vulkan("");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->rule_set, find_rule_set("vulkan"));
+  EXPECT_EQ(parse_case(write_case(*read), "a.json", "a")->rule_set, read->rule_set);
+  EXPECT_FALSE(under_vulkan(R"(, "rounding": "truncate")")) << "Vulkan leaves the rounding open";
+  EXPECT_FALSE(under_vulkan(R"(, "subpixel_bits": 3)")) << "Vulkan wants four";
+  EXPECT_TRUE(under_vulkan(R"(, "subpixel_bits": 4)"));
+}
+
 }  // namespace
 }  // namespace edgecase::conformance

@@ -145,6 +145,11 @@ TEST_F(CommandLine, ListsAndShows) {
   EXPECT_THAT(shown.out, AllOf(HasSubstr("A test."), HasSubstr("#")));
   EXPECT_THAT(run("show clip/depth_at_both_ends --subject lavapipe").out, HasSubstr("###."));
   EXPECT_EQ(run("show clip/depth_at_both_ends --subject osmesa-softpipe").status, 2);
+  EXPECT_THAT(run("show clip/one_w_near_0 --subject lavapipe").out, HasSubstr("beyond the reach of its clipper's model"));
+  EXPECT_THAT(run("show clip/behind_the_eye --subject fault:behind-drawn").out, HasSubstr("\n> 0 xxx.\n"));
+  expect_one_line(run("show clip/mesh_across_the_near_plane"), 2, "--subject");
+  expect_one_line(run("show fan"), 2, "'fan/*'");
+  EXPECT_EQ(run("run --subject edgecase fill_rule/flat_top").status, 0);  // an option takes one value
   EXPECT_EQ(run("show clip/mesh_across_the_near_plane --subject lavapipe --png clipped.png").status, 0);
   EXPECT_EQ(run("show a.json --subject fault:all-exclusive --png p.png").status, 0);
   EXPECT_THAT(slurp(folder_ / "p.png").substr(1, 3), "PNG");
@@ -172,7 +177,7 @@ TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
   expect_one_line(run("run --category fan --generator ties"), 2, "is of category \"fan\"");
   const Outcome caught = run("run --category metamorphic --count 4000 --subject fault:all-exclusive");
   EXPECT_EQ(caught.status, 1);
-  EXPECT_THAT(caught.out, HasSubstr("before and not after"));
+  EXPECT_THAT(caught.out, HasSubstr("covered before the change, and not after it"));
 }
 
 TEST_F(CommandLine, FindsTheLimitsOfSubjects) {
@@ -253,6 +258,13 @@ TEST_F(CommandLine, ExhaustsALatticeAlsoAfterBeingKilled) {
   EXPECT_EQ(json["samples_compared"], 85'320 * 16);
   EXPECT_GT(json["wrong"], 0);
   EXPECT_GT(json["seconds"], 0);
+  EXPECT_EQ(json["missing"].get<int>() + json["unexpected"].get<int>(), json["wrong"].get<int>());
+  EXPECT_EQ(run("exhaust --lattice-bits 1 --target 2x2 --subject fault:right-inclusive --report r").status, 1);
+  EXPECT_THAT(slurp(folder_ / "r/index.html"), HasSubstr("exhaustion.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "r/exhaustion.svg"));
+  EXPECT_EQ(run("run r/exhaustion.json --subject fault:right-inclusive").status, 1);
+  EXPECT_EQ(run("run r/exhaustion.json --subject edgecase").status, 0);
+  expect_one_line(run("exhaust --lattice-bits 1 --target 2x2 --report /proc/none"), 2, "/proc/none");
   expect_one_line(run("exhaust --lattice-bits 1 --target 13x5"), 2, "13x5");
   EXPECT_EQ(run("exhaust --target 4x").status, 2);
   EXPECT_EQ(run("exhaust --target 65x1").status, 2);

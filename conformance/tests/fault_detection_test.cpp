@@ -80,12 +80,12 @@ TEST(FaultDetection, TheFaultsHostIsCleared) {
   const Rules rules = host->info().rules;
   Judge judge(*host, *reference, nullptr);
   for (const Case& file : all_cases()) {
-    const Trial trial = try_case(file, *host, rules, judge);
+    const Trial trial = try_case(file, *host, rules, kExactRules, judge);
     EXPECT_FALSE(trial.failure) << trial.failure->message;
     EXPECT_EQ(trial.outcome.unexplained, 0u) << file.name;
   }
   for (const Testcase& testcase : all_generators()) {
-    const Trial trial = try_generator(*testcase.generator, *host, rules, judge, {kCount, 1});
+    const Trial trial = try_generator(*testcase.generator, *host, rules, kExactRules, judge, {kCount, 1});
     EXPECT_FALSE(trial.failure) << trial.failure->message;
     EXPECT_EQ(trial.outcome.unexplained, 0u) << testcase.name();
   }

@@ -71,8 +71,16 @@ std::vector<GrowthPoint> some_points() {
 
 TEST(Growth, TheSlopeIsTheExponentOfWhatIsShown) {
   EXPECT_DOUBLE_EQ(slope_of(axis("triangles"), some_points(), "plain"), 1);
-  EXPECT_DOUBLE_EQ(slope_of(axis("area"), some_points(), "plain"), 0.5);
+  EXPECT_NEAR(slope_of(axis("area"), some_points(), "plain"), 0.5, 1e-12);
   EXPECT_EQ(slope_of(axis("area"), some_points(), "absent"), 0);
+  EXPECT_EQ(last_slope_of(axis("area"), some_points(), "absent"), 0);
+  // A bend from exponent 0 to 1: between them for the whole line, 1 at its end.
+  auto points = some_points();
+  points.push_back({"area", 1'000, "plain", "avx2", 10, 10'000, 0.1});
+  points.push_back({"area", 0.01, "plain", "avx2", 10, 100, 0.1});
+  std::ranges::sort(points, {}, &GrowthPoint::value);
+  EXPECT_NEAR(slope_of(axis("area"), points, "plain"), 0.390, 0.001);
+  EXPECT_DOUBLE_EQ(last_slope_of(axis("area"), points, "plain"), 1);
 }
 
 TEST(Growth, OutputNamesAxesAndValues) {
@@ -81,7 +89,8 @@ TEST(Growth, OutputNamesAxesAndValues) {
   EXPECT_EQ(json["points"][3].at("axis"), "area");
   EXPECT_EQ(json["points"][3].at("value"), 100);
   EXPECT_EQ(json["points"][3].at("ns_per_triangle"), 1'000);
-  EXPECT_THAT(growth_table(some_points()), testing::AllOf(HasSubstr("area in px"), HasSubstr("0.50")));
+  EXPECT_THAT(growth_table(some_points()), testing::AllOf(HasSubstr("area in px"), HasSubstr("0.50"),
+                                                          HasSubstr("\nand 1 where it goes with its pixels")));
   const std::string program = growth_plot_program(axis("area"), some_points(), "a.png");
   EXPECT_THAT(program, testing::AllOf(HasSubstr("plain (avx2), slope 0.50"), HasSubstr("100 1000\n")));
 }

@@ -328,6 +328,24 @@ TEST(Canvas, LongTextIsCutOrBrokenToItsWidth) {
   EXPECT_GT(lines.size(), 4u);
 }
 
+TEST(Png, BeforeAndAfterStandSideBySideOrOneAboveTheOther) {
+  const auto size = [](const Exhibit& exhibit) {
+    const auto png = render_png(exhibit);
+    EXPECT_TRUE(png);
+    const Pixels pixels(*png);
+    EXPECT_TRUE(pixels.good());
+    return std::pair(pixels.width(), pixels.height());
+  };
+  for (const Extent target : {Extent{20, 30}, Extent{40, 8}}) {
+    Exhibit exhibit = make_exhibit({target, {SampleLocation{}}}, {{Position{0, 0}, {30, 0}, {0, 30}}});
+    const auto [width, height] = size(exhibit);
+    exhibit.before = Before{"before the change", "after it", exhibit.snapped};
+    const auto [both_width, both_height] = size(exhibit);
+    EXPECT_EQ(both_width > width, target.height > target.width);
+    EXPECT_EQ(both_height > height + 30, target.height < target.width);
+  }
+}
+
 TEST(Png, ScaleEnlargesIt) {
   const auto once = render_png(square_fan());
   const auto twice = render_png(square_fan(), 2);

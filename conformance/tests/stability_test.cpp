@@ -72,8 +72,10 @@ TEST(Stability, IsShownAsTextJsonAndPlot) {
   EXPECT_EQ(json["rows"][0]["wrong"], 0);
   const std::string plot = stability_plot(measured(), "it's.png");
   EXPECT_THAT(plot, HasSubstr("set output 'it''s.png'"));
-  EXPECT_THAT(plot, HasSubstr("title 'inexact:bits0'"));
+  EXPECT_THAT(plot, HasSubstr("title 'bits0'"));
   EXPECT_THAT(plot, HasSubstr("\n1024 "));
+  EXPECT_THAT(plot, HasSubstr(": doubles'"));
+  EXPECT_THAT(plot, HasSubstr("\"exact to ±"));
 }
 
 }  // namespace

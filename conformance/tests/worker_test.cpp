@@ -91,6 +91,25 @@ TEST(Worker, SplitsBatchesByTheDriversBuffer) {
   }
 }
 
+// In one draw and in several, where the masks have to be put together.
+TEST(Worker, MasksInPlaceAreThoseThatItWouldCopy) {
+  const auto subject = started();
+  ASSERT_NE(subject, nullptr);
+  for (const std::size_t count : {0U, 1U, 64U, 65U, 130U}) {
+    std::vector<float> first_x(count);
+    for (std::size_t i = 0; i < count; ++i) first_x[i] = static_cast<float>(count + i);
+    const Scene scene = scene_of(first_x);
+    MaskBatch scratch;
+    const auto masks = subject->draw_in_place(scene, scratch);
+    ASSERT_TRUE(masks) << masks.error().message;
+    ASSERT_EQ(masks->size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      ASSERT_THAT((*masks)[i], testing::Each(std::bit_cast<std::uint32_t>(scene.triangles[i][0].x))) << i;
+    }
+    EXPECT_EQ(scratch.size(), count <= 64 ? 0 : count);
+  }
+}
+
 TEST(Worker, CrashNamesSignalTrianglesAndLastWordsAndIsOvercome) {
   const auto subject = started();
   ASSERT_NE(subject, nullptr);
