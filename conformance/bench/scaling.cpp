@@ -48,19 +48,19 @@ TaskCosts time_tasks(const rasterizer::FastRasterizer& fast, std::span<const Fix
   TaskCosts costs{kNever, {}, {}, std::vector<double>(tiles, kNever)};
   std::vector<double> clear(tiles, kNever);
   for (std::size_t i = 0; i < repetitions; ++i) {
-    time_into(costs.plan, [&] { make_plan(triangles, mask.target(), plan.threads); });
+    time_into(costs.plan, [&] { static_cast<void>(make_plan(triangles, mask.target(), plan.threads)); });
     mask.clear();
     TiledDraw drawing(fast, triangles, plan, mask, memory);
     costs.bins.resize(drawing.binned() ? drawing.chunks() : 0, kNever);
-    costs.parts.resize(tiles, std::vector<double>(drawing.chunks(), kNever));
+    costs.parts.resize(tiles, std::vector<double>(plan.parts, kNever));
     for (std::size_t chunk = 0; chunk < costs.bins.size(); ++chunk) {
       time_into(costs.bins[chunk], [&] { drawing.bin(chunk); });
     }
     for (std::size_t t = 0; t < tiles; ++t) {
       const int tile = static_cast<int>(t);
       time_into(clear[t], [&] { tile_mask.begin(plan.grid.tile(tile)); });
-      for (std::size_t chunk = 0; chunk < drawing.chunks(); ++chunk) {
-        time_into(costs.parts[t][chunk], [&] { drawing.draw(tile, chunk, canvas); });
+      for (std::size_t part = 0; part < plan.parts; ++part) {
+        time_into(costs.parts[t][part], [&] { drawing.draw({tile, part}, canvas); });
       }
       time_into(costs.tiles[t], [&] { drawing.finish(canvas); });
     }
@@ -119,9 +119,9 @@ tl::expected<void, Error> measure_workload(std::string_view name, const Scene& s
       point.tasks_ns = point.predicted_ns = one_thread;
     } else {
       const TaskCosts costs = time_tasks(fast, *triangles, plan, repetitions, mask);
-      const Schedule schedule = play(costs, plan);
+      const Schedule schedule = play(costs, plan, rasterizer::start_of_thread);
       point.tasks_ns = schedule.tasks;
-      point.predicted_ns = costs.plan + rasterizer::start_of_threads(plan.threads) + schedule.end;
+      point.predicted_ns = costs.plan + schedule.end;
     }
     point.predicted_speedup = one_thread / point.predicted_ns;
     if (threads == 1 || threads > processors) continue;
@@ -134,15 +134,15 @@ tl::expected<void, Error> measure_workload(std::string_view name, const Scene& s
 
 }  // namespace
 
-Schedule play(const TaskCosts& costs, const Plan& plan) {
-  const std::size_t chunks = costs.parts.front().size();
-  rasterizer::Agenda agenda(plan.tile_work, chunks, plan.least_help);
+Schedule play(const TaskCosts& costs, const Plan& plan, double (*start)(int thread)) {
+  rasterizer::Agenda agenda(plan.tile_work, plan.parts, plan.least_help);
   struct Thread {
-    double time = 0;
-    int tile = -1;
+    double time;
+    int tile;
   };
-  std::vector<Thread> threads(static_cast<std::size_t>(plan.threads));
-  std::vector<double> binned_at(chunks);
+  std::vector<Thread> threads;
+  for (int i = 0; i < plan.threads; ++i) threads.push_back({start(i), -1});
+  std::vector<double> binned_at(costs.bins.size());
   std::size_t next_bin = 0;
   Schedule schedule;
   const auto work = [&](Thread& thread, double cost) {
@@ -164,8 +164,11 @@ Schedule play(const TaskCosts& costs, const Plan& plan) {
     if (tile != thread.tile) work(thread, cost_of_tile(thread.tile));
     thread.tile = tile;
     if (part) {
-      thread.time = std::max(thread.time, binned_at[part->chunk]);
-      work(thread, costs.parts[static_cast<std::size_t>(tile)][part->chunk]);
+      const std::size_t chunks = binned_at.size();
+      for (std::size_t c = chunks * part->number / plan.parts; c < chunks * (part->number + 1) / plan.parts; ++c) {
+        thread.time = std::max(thread.time, binned_at[c]);
+      }
+      work(thread, costs.parts[static_cast<std::size_t>(tile)][part->number]);
     } else {
       schedule.end = std::max(schedule.end, thread.time);
       threads.erase(first);

@@ -3,7 +3,7 @@
 // The tasks of a drawing (rasterizer/threads/tiled_draw.h) are timed one after the other on one thread, and then played
 // through the very agenda that the threads follow, on as many of them as asked for. Beside that stands what is measured
 // where there are as many processors. Threads share no memory and no power in this model, and starting them takes what
-// start_of_threads() says.
+// start_of_thread() says.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,17 @@ namespace edgecase::conformance {
 struct TaskCosts {
   double plan = 0;                         ///< before threads start
   std::vector<double> bins;                ///< of each chunk; none if there is but one tile
-  std::vector<std::vector<double>> parts;  ///< of each tile, for each chunk
+  std::vector<std::vector<double>> parts;  ///< of each tile
   std::vector<double> tiles;  ///< to clear and to add a mask of each tile, once for each thread that has it
 };
 
 struct Schedule {
-  double end = 0;    ///< ns until the last thread is done, from the first one's start
+  double end = 0;    ///< ns until the last thread is done, from the call on
   double tasks = 0;  ///< the sum of all tasks, helpers' masks included
 };
 
-/// Plays the tasks through the agenda with plan.threads threads that all start at 0.
-Schedule play(const TaskCosts& costs, const rasterizer::Plan& plan);
+/// Plays the tasks through the agenda with plan.threads threads, of which thread i starts at start(i).
+Schedule play(const TaskCosts& costs, const rasterizer::Plan& plan, double (*start)(int thread));
 
 struct ScalingPoint {
   std::string workload;

@@ -20,8 +20,9 @@ std::vector<std::string> workloads_of(std::span<const ScalingPoint> points) {
 
 constexpr std::string_view kAbout =
     "Tasks timed one by one on one thread, played through the threads' own agenda; rings are measured.\\n"
-    "A line bends where starting threads (5 us, and 0.5 us each) and their masks' memory weigh as much as a thread's\\n"
-    "share of the draw, and ends flat where the plan takes no more of them. Not in the model: shared memory bandwidth.";
+    "A line bends where starting other threads (5 us, and 0.5 us each) and adding up their masks weigh as much as\\n"
+    "a thread's share of the draw, and ends flat where the plan takes no more of them. Above the ideal: a target\\n"
+    "beyond the caches, whose tiles fit. Not in the model: memory bandwidth that threads share.";
 
 }  // namespace
 
@@ -77,7 +78,7 @@ std::string scaling_plot_program(std::span<const ScalingPoint> points, const std
       "set lmargin at screen 0.09\nset rmargin at screen 0.97\nset tmargin at screen 0.94\n"
       "set bmargin at screen 0.33\nset key at screen 0.02,0.14 left top reverse Left vertical maxrows 3\n"
       "set xlabel 'threads'\nset ylabel 'times as fast as one thread'\n"
-      "set label \"{}\" at screen 0.02,0.225 left font ',11'\nplot x with lines lw 1 dt 3 lc rgb '#666666' title "
+      "set label \"{}\" at screen 0.02,0.235 left font ',11'\nplot x with lines lw 1 dt 3 lc rgb '#666666' title "
       "'ideal'",
       gnuplot_quoted(path), gnuplot_quoted("Speed over threads, 1920x1080 (wide200: 16384x16384)"), kAbout);
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -43,10 +43,10 @@ TEST(Agenda, WhoHasNoTileHelpsWhereMostIsLeftIfThatIsWorthIt) {
 }
 
 TEST(Agenda, ManyThreadsGetEveryPartOnce) {
-  constexpr std::size_t kChunks = 1'000, kThreads = 8;
+  constexpr std::size_t kParts = 1'000, kThreads = 8;
   const std::vector<double> work{5, 0, 300, 7, 7, 90, 1};
   for (int round = 0; round < 20; ++round) {
-    Agenda agenda(work, kChunks, 2);
+    Agenda agenda(work, kParts, 2);
     std::array<std::vector<Part>, kThreads> taken;
     {
       std::vector<std::jthread> threads;
@@ -60,9 +60,9 @@ TEST(Agenda, ManyThreadsGetEveryPartOnce) {
         });
       }
     }
-    std::vector<int> times(work.size() * kChunks);
+    std::vector<int> times(work.size() * kParts);
     for (const auto& own : taken) {
-      for (const Part& part : own) ++times[static_cast<std::size_t>(part.tile) * kChunks + part.chunk];
+      for (const Part& part : own) ++times[static_cast<std::size_t>(part.tile) * kParts + part.number];
     }
     ASSERT_THAT(times, testing::Each(1));
   }

@@ -59,14 +59,21 @@ TEST(Plan, TheWorkIsWhereTheTrianglesAre) {
   EXPECT_NEAR(sum(plan) / sum(make_plan(list, large, 4, 1, 1)), 1, 1e-6);
 }
 
-TEST(Plan, ChunksSufficeForAllThreads) {
+TEST(Plan, ChunksAndPartsSufficeForAllThreads) {
   const Target screen = *Target::make(1920, 1080);
   for (const std::size_t count : {1u, 30u, 2'000u, 100'000u}) {
     const auto list = triangles(screen, count, 30, 1920);
-    const Plan plan = make_plan(list, screen, 16, 2, 2);
-    EXPECT_EQ(plan.threads, 16);
-    EXPECT_GE(plan.chunk, 1u);
-    EXPECT_GE((count + plan.chunk - 1) / plan.chunk, std::min<std::size_t>(count, 16 * 16));
+    for (const int side : {1, 2, 16}) {
+      const Plan plan = make_plan(list, screen, 16, side, side);
+      const auto tiles = static_cast<std::size_t>(plan.grid.count());
+      EXPECT_EQ(plan.threads, 16);
+      EXPECT_GE(plan.chunk, 1u);
+      const std::size_t chunks = (count + plan.chunk - 1) / plan.chunk;
+      EXPECT_GE(chunks, std::min<std::size_t>(count, 16 * 8));
+      EXPECT_GE(plan.parts, 1u);
+      EXPECT_LE(plan.parts, chunks);
+      EXPECT_GE(plan.parts * tiles, std::min<std::size_t>(chunks * tiles, 16 * 32));
+    }
   }
 }
 

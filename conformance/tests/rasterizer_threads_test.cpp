@@ -89,6 +89,8 @@ void expect_same_for_all_plans(const std::vector<Fixed>& triangles, const Target
     for (const auto& [tile_columns, tile_rows] : {std::array{1, 1}, std::array{2, 3}, std::array{5, 7}}) {
       Plan plan = make_plan(triangles, target, threads, tile_columns, tile_rows);
       plan.chunk = std::max<std::size_t>(plan.chunk / 3, 1);
+      plan.parts = (triangles.size() + plan.chunk - 1) / plan.chunk;
+      if (tile_columns == 2) plan.parts = plan.parts / 2 + 1;
       plan.least_help = 0;
       StripMask observed(target);
       threaded.cover_union(triangles, observed, plan);

@@ -19,12 +19,26 @@ rasterizer::Plan plan_for(const TaskCosts& costs, int threads, double least_help
   const auto tiles = static_cast<int>(costs.parts.size());
   std::vector<double> work;
   for (const auto& parts : costs.parts) work.push_back(std::accumulate(parts.begin(), parts.end(), 0.0));
-  return {rasterizer::TileGrid(*rasterizer::Target::make(1'000, 1'000), tiles, 1), threads, 1, work, 0, least_help};
+  return {rasterizer::TileGrid(*rasterizer::Target::make(1'000, 1'000), tiles, 1),
+          threads,
+          1,
+          costs.parts.front().size(),
+          work,
+          0,
+          least_help};
+}
+
+double at_once(int) { return 0; }
+double one_by_one(int thread) { return 30.0 * thread; }
+
+TEST(Scaling, ThreadsJoinWhenTheyHaveStarted) {
+  const TaskCosts costs{0, {}, {std::vector<double>(9, 10)}, {0}};
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 2, 1), one_by_one).end, 60);
 }
 
 TEST(Scaling, OneThreadDoesEverythingOneAfterTheOther) {
   const TaskCosts costs{0, {1, 2}, {{10, 20}, {30, 40}}, {5, 5}};
-  const Schedule schedule = play(costs, plan_for(costs, 1, 0));
+  const Schedule schedule = play(costs, plan_for(costs, 1, 0), at_once);
   EXPECT_DOUBLE_EQ(schedule.end, 113);
   EXPECT_DOUBLE_EQ(schedule.tasks, 113);
 }
@@ -32,22 +46,22 @@ TEST(Scaling, OneThreadDoesEverythingOneAfterTheOther) {
 TEST(Scaling, TilesAreTakenInFallingOrderByWhoIsFree) {
   // Too little is left anywhere to help: 60 | 40 | 30, then 20 behind the 30, 10 behind the 40.
   const TaskCosts costs{0, {}, {{10}, {60}, {20}, {30}, {40}}, {0, 0, 0, 0, 0}};
-  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 3, 100)).end, 60);
-  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 2, 100)).end, 80);  // 60 20 | 40 30 10
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 3, 100), at_once).end, 60);
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 2, 100), at_once).end, 80);  // 60 20 | 40 30 10
 }
 
 TEST(Scaling, OneTileIsSharedAtThePriceOfAMaskForEach) {
   const TaskCosts costs{0, {}, {std::vector<double>(8, 10)}, {3}};
-  const Schedule schedule = play(costs, plan_for(costs, 4, 1));
+  const Schedule schedule = play(costs, plan_for(costs, 4, 1), at_once);
   EXPECT_DOUBLE_EQ(schedule.end, 23);
   EXPECT_DOUBLE_EQ(schedule.tasks, 92);
-  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 4, 1'000)).end, 83);
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 4, 1'000), at_once).end, 83);
 }
 
 TEST(Scaling, APartWaitsForItsBinsAndForNoOthers) {
   // The second thread is done binning at 1, begins with chunk 0 of its tile at 10, when the first one has binned it.
   const TaskCosts costs{0, {10, 1}, {{2, 2}, {5, 5}}, {0, 0}};
-  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 2, 100)).end, 20);
+  EXPECT_DOUBLE_EQ(play(costs, plan_for(costs, 2, 100), at_once).end, 20);
 }
 
 TEST(Scaling, TheCommandWritesATableAndAPicture) {

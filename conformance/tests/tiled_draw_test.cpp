@@ -29,7 +29,7 @@ struct Drawing {
   FastRasterizer fast;
   StripMask mask{target};
   TiledDraw::Memory memory;
-  Plan plan{TileGrid(target, 2, 2), 2, 2, std::vector<double>(4, 1), 0, 0};
+  Plan plan{TileGrid(target, 2, 2), 2, 2, 3, std::vector<double>(4, 1), 0, 0};
 };
 
 TEST(TiledDraw, PartsMayBeDrawnInAnyOrder) {
@@ -42,9 +42,9 @@ TEST(TiledDraw, PartsMayBeDrawnInAnyOrder) {
   TiledDraw::Canvas one(0), other(1);
   // Both canvases have parts of every tile.
   for (const int tile : {3, 1, 0, 2}) {
-    draw.draw(tile, 1, other);
-    draw.draw(tile, 2, one);
-    draw.draw(tile, 0, one);
+    draw.draw({tile, 1}, other);
+    draw.draw({tile, 2}, one);
+    draw.draw({tile, 0}, one);
   }
   EXPECT_NE(rows(d.mask), rows(expected));
   draw.finish(one);
@@ -62,8 +62,13 @@ TEST(TiledDraw, AnyThreadsCanDoTheWork) {
   for (const int side : {1, 2, 3}) {
     for (int round = 0; round < 10; ++round) {
       d.mask.clear();
-      const Plan plan{
-          TileGrid(d.target, side, side), 4, 64, std::vector<double>(static_cast<std::size_t>(side * side), 1), 0, 0};
+      const Plan plan{TileGrid(d.target, side, side),
+                      4,
+                      64,
+                      11,
+                      std::vector<double>(static_cast<std::size_t>(side * side), 1),
+                      0,
+                      0};
       std::vector<TiledDraw::Canvas> canvases;
       for (std::size_t i = 0; i < 4; ++i) canvases.emplace_back(i);
       TiledDraw draw(d.fast, d.triangles, plan, d.mask, d.memory);
@@ -89,7 +94,7 @@ TEST(TiledDraw, DrawingWaitsForBins) {
     std::atomic<bool> drawn = false;
     std::jthread drawer([&] {
       for (int tile = 0; tile < 4; ++tile) {
-        for (std::size_t chunk = 0; chunk < 3; ++chunk) draw.draw(tile, chunk, canvas);
+        for (std::size_t part = 0; part < 3; ++part) draw.draw({tile, part}, canvas);
       }
       draw.finish(canvas);
       drawn = true;

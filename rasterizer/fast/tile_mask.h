@@ -22,10 +22,15 @@ static_assert(kMarginRows % TileGrid::kRowUnit == 0 && kMarginRows <= kRowsBelow
 
 class TileMask {
  public:
-  /// From here on the mask is that of `tile`, all clear.
+  /// From here on the mask is that of `tile`, all clear. All strips of the tile before it, if there was one, must have
+  /// been added to a mask.
   void begin(const Tile& tile) {
+    const int count = (tile.width + kStripWidth - 1) / kStripWidth;
+    // Of a tile as large as the one before it that one has left clear strips, and margins of no use.
+    const bool alike = count == count_ && tile.height == tile_.height;
     tile_ = tile;
-    count_ = (tile.width + kStripWidth - 1) / kStripWidth;
+    if (alike) return;
+    count_ = count;
     // The rows above a strip are those below the one before it.
     const auto rows = static_cast<std::size_t>(tile.height + kRowsBelow);
     stride_ = (rows + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
@@ -35,7 +40,7 @@ class TileMask {
 
   const Tile& tile() const { return tile_; }
 
-  /// Adds the tile's strips from `begin` to before `end` to `mask`.
+  /// Adds the tile's strips from `begin` to before `end` to `mask`, and clears them.
   void add_to(StripMask& mask, std::size_t begin, std::size_t end);
 
   /// Strip 0 and row 0 are the tile's first.

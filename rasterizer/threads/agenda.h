@@ -1,11 +1,11 @@
 // Agenda: which part of which tile a thread draws next. The one policy that the threads follow and that its model,
 // conformance/bench/scaling.h, plays through.
 //
-// A tile's part is what one chunk of triangles puts into it. A thread keeps its tile until its parts are taken; then it
-// takes the tile with the most work that nobody has begun; and when all are begun it helps with the one of which the
-// most work is left, in a mask of its own. So a tile is never shared while there is another, and nobody is idle as long
-// as there is work left that is worth adding another mask to the tile: whatever the tiles' work, and even if there is
-// but one.
+// A tile's parts are what ranges of the list put into it, in order. A thread keeps its tile until its parts are taken;
+// then it takes the tile with the most work that nobody has begun; and when all are begun it helps with the one of
+// which the most work is left, in a mask of its own. So a tile is never shared while there is another, and nobody is
+// idle as long as there is work left that is worth adding another mask to the tile: whatever the tiles' work, and even
+// if there is but one.
 #pragma once
 
 #include <algorithm>
@@ -20,16 +20,17 @@ namespace edgecase::rasterizer {
 
 struct Part {
   int tile;
-  std::size_t chunk;
+  std::size_t number;  ///< among those of the tile
   friend bool operator==(const Part&, const Part&) = default;
 };
 
 class Agenda {
  public:
-  /// `work`: of each tile, in ns; `least_help`: what must be left of it for another thread to join.
-  Agenda(std::span<const double> work, std::size_t chunks, double least_help)
+  /// `work`: of each tile, in ns; `parts`: of each tile; `least_help`: what must be left of it for another thread to
+  /// join.
+  Agenda(std::span<const double> work, std::size_t parts, double least_help)
       : work_(work.begin(), work.end()),
-        chunks_(chunks),
+        parts_(parts),
         least_help_(least_help),
         order_(work.size()),
         taken_(work.size()) {
@@ -55,32 +56,32 @@ class Agenda {
 
  private:
   struct alignas(64) Taken {
-    std::atomic<std::size_t> chunks{0};
+    std::atomic<std::size_t> parts{0};
   };
   static std::size_t index(int tile) { return static_cast<std::size_t>(tile); }
 
   std::optional<Part> take(int tile) {
-    auto& chunks = taken_[index(tile)].chunks;
-    if (chunks.load(std::memory_order_relaxed) >= chunks_) return std::nullopt;
-    const std::size_t chunk = chunks.fetch_add(1, std::memory_order_relaxed);
-    if (chunk >= chunks_) return std::nullopt;
-    return Part{tile, chunk};
+    auto& parts = taken_[index(tile)].parts;
+    if (parts.load(std::memory_order_relaxed) >= parts_) return std::nullopt;
+    const std::size_t number = parts.fetch_add(1, std::memory_order_relaxed);
+    if (number >= parts_) return std::nullopt;
+    return Part{tile, number};
   }
 
   std::optional<int> most_left() const {
     std::optional<int> best;
     double most = least_help_;
     for (const int tile : order_) {
-      const std::size_t taken = taken_[index(tile)].chunks.load(std::memory_order_relaxed);
-      if (taken >= chunks_) continue;
-      const double left = work_[index(tile)] * static_cast<double>(chunks_ - taken) / static_cast<double>(chunks_);
+      const std::size_t taken = taken_[index(tile)].parts.load(std::memory_order_relaxed);
+      if (taken >= parts_) continue;
+      const double left = work_[index(tile)] * static_cast<double>(parts_ - taken) / static_cast<double>(parts_);
       if (left > most) most = left, best = tile;
     }
     return best;
   }
 
   std::vector<double> work_;
-  std::size_t chunks_;
+  std::size_t parts_;
   double least_help_;
   std::vector<int> order_;
   std::vector<Taken> taken_;

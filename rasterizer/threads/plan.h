@@ -25,6 +25,8 @@ struct Plan {
   int threads;
   /// Triangles of a chunk, at least one.
   std::size_t chunk;
+  /// Into so many parts of about as many chunks each tile's drawing is divided; from 1 to the number of chunks.
+  std::size_t parts;
   /// Estimated ns of drawing each tile.
   std::vector<double> tile_work;
   /// Estimated ns of the whole on these threads.
@@ -33,8 +35,8 @@ struct Plan {
   double least_help;
 };
 
-/// ns until that many threads work, assumed rather than measured.
-double start_of_threads(int threads);
+/// ns until thread `thread` of several works, 0 being the caller's own: assumed rather than measured.
+double start_of_thread(int thread);
 
 /// The plan with `columns` by `rows` tiles for exactly `threads` threads.
 Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads, int columns,

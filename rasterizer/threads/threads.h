@@ -9,7 +9,7 @@
 // Tiles are drawn in the order of falling work; towards the end, threads without a tile help with one that has much
 // left (agenda.h). What limits many threads:
 //   - before they start, a few us for the plan;
-//   - at the end, one part of a tile, 1/16 of a thread's share: on average half of that is lost;
+//   - at the end, one part of a tile, 1/32 of a thread's share: on average half of that is lost;
 //   - in total, the triangles on tiles' borders, which are drawn twice, and a mask for each tile and each helper.
 // `edgecase bench --scaling` plays these tasks, with the times they take on one thread, through the agenda for up to
 // 64 threads. What it cannot show is threads that share a memory's bandwidth.

@@ -19,7 +19,7 @@ TiledDraw::TiledDraw(const FastRasterizer& fast, std::span<const Triangle> trian
       mask_(mask),
       chunks_(divided_up(triangles.size(), plan.chunk)),
       memory_(memory),
-      agenda_(plan.tile_work, chunks_, plan.least_help) {
+      agenda_(plan.tile_work, plan.parts, plan.least_help) {
   if (!binned()) return;
   while (memory_.bins.size() < chunks_) memory_.bins.push_back(std::make_unique<Bins>());
   for (std::size_t chunk = 0; chunk < chunks_; ++chunk) memory_.bins[chunk]->done.store(false);
@@ -31,7 +31,7 @@ void TiledDraw::work(Canvas& canvas) {
   int tile = -1;
   while (const auto part = agenda_.next(tile)) {
     tile = part->tile;
-    draw(tile, part->chunk, canvas);
+    draw(*part, canvas);
   }
   finish(canvas);
 }
@@ -78,7 +78,14 @@ void TiledDraw::bin(std::size_t chunk) {
   bins.done.store(true, std::memory_order_release);
 }
 
-void TiledDraw::draw(int tile, std::size_t chunk, Canvas& canvas) {
+void TiledDraw::draw(const Part& part, Canvas& canvas) {
+  if (canvas.tile_ != part.tile) finish(canvas);
+  for (std::size_t chunk = first_chunk(part.number); chunk < first_chunk(part.number + 1); ++chunk) {
+    draw_bin(part.tile, chunk, canvas);
+  }
+}
+
+void TiledDraw::draw_bin(int tile, std::size_t chunk, Canvas& canvas) const {
   std::span<const Triangle> triangles = triangles_of(chunk);
   if (binned()) {
     const Bins& bins = *memory_.bins[chunk];
@@ -87,13 +94,16 @@ void TiledDraw::draw(int tile, std::size_t chunk, Canvas& canvas) {
     const std::uint32_t* const begin = bins.begin.data() + tile;
     triangles = std::span(bins.triangles).subspan(begin[0], begin[1] - begin[0]);
   }
-  if (canvas.tile_ != tile) finish(canvas);
   if (triangles.empty()) return;
-  if (canvas.tile_ != tile) {
+  if (canvas.tile_ < 0) {
     canvas.tile_ = tile;
     canvas.mask_.begin(plan_.grid.tile(tile));
   }
-  draw_in_order(triangles, canvas);
+  if (binned()) {
+    draw_in_order(triangles, canvas);
+  } else {
+    fast_.cover_tile(triangles, canvas.mask_);
+  }
 }
 
 void TiledDraw::draw_in_order(std::span<const Triangle> triangles, Canvas& canvas) const {

@@ -80,15 +80,18 @@ class TiledDraw {
   /// Each chunk is to be binned once, by any thread.
   void bin(std::size_t chunk);
 
-  /// Draws what triangles of `chunk` put into `tile`; waits for the chunk's bins. If `canvas` has another tile, that is
-  /// finished first. Each part is to be drawn once, by any thread, each thread having a canvas of its own.
-  void draw(int tile, std::size_t chunk, Canvas& canvas);
+  /// Draws a part of a tile, from the chunks first_chunk(part.number) to before first_chunk(part.number + 1); waits for
+  /// their bins. If `canvas` has another tile, that is finished first. Each part is to be drawn once, by any thread,
+  /// each thread having a canvas of its own.
+  void draw(const Part& part, Canvas& canvas);
+  std::size_t first_chunk(std::size_t part) const { return chunks_ * part / plan_.parts; }
 
   /// Adds what `canvas` has to the mask, and leaves it without a tile.
   void finish(Canvas& canvas);
 
  private:
   std::span<const Triangle> triangles_of(std::size_t chunk) const;
+  void draw_bin(int tile, std::size_t chunk, Canvas& canvas) const;
   void draw_waiting(Canvas& canvas) const;
   void draw_in_order(std::span<const Triangle> triangles, Canvas& canvas) const;
 
