@@ -39,6 +39,8 @@ Append behind;
 Append clip_fan;
 Append clip_grid;
 Append turned;
+Append turned_across;
+Append turned_beside_across;
 Append strips;
 Append fans;
 

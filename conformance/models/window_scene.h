@@ -28,7 +28,7 @@ struct WindowScene {
   std::size_t parts_of(std::size_t triangle) const { return first[triangle + 1] - first[triangle]; }
 };
 
-/// Clips and projects `scene.clip`, or else snaps `scene.triangles` (which reach the driver unchanged, as through an
+/// Clips and projects `scene.clip`, drawn at once, or else snaps `scene.triangles` (which reach the driver unchanged, as through an
 /// enclosing viewport).
 WindowScene window_scene(const TransformModel& model, const Scene& scene);
 
