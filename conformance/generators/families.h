@@ -18,6 +18,7 @@ Append uniform;
 Append ties;
 Append range;
 Append far_corner;
+Append near_corner;
 Append sliver;
 Append tiny;
 Append sample_ties;

@@ -10,6 +10,9 @@ namespace {
 constexpr std::string_view kSampleTies = "triangles on the lattice of the sample locations, and slivers through them";
 constexpr std::string_view kFarCorner =
     "triangles that end within 64 px, or just beyond, and reach thousands of pixels to the left and above";
+constexpr std::string_view kNearCorner =
+    "triangles that end within 16 px, but for a side of the scissor or the target, and reach 70 to 114 px to the left and "
+    "above";
 constexpr std::string_view kStraddle =
     "boxes of 4, 8, 16, 32, 64 and 128 px, up to a pixel more or less, on their grids";
 constexpr std::string_view kNeedle =
@@ -97,6 +100,8 @@ std::span<const Generator> generators() {
       Generator{"far_corner_wide", "range", kFarCorner, sized({75, 70}), families::far_corner},
       Generator{"far_corner_scissor", "range", kFarCorner, scissored({3, 18, 21, 9}), families::far_corner},
       Generator{"far_corner_samples4", "range", kFarCorner, multisampled(4), families::far_corner},
+      Generator{"near_corner_scissor", "range", kNearCorner, scissored({0, 2, 32, 32}), families::near_corner},
+      Generator{"near_corner_small", "range", kNearCorner, sized({13, 20}), families::near_corner},
       Generator{"sliver",
                 "sliver",
                 "needles up to a few subpixels wide, most of them passing close to pixel centres",
