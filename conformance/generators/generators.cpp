@@ -11,7 +11,8 @@ constexpr std::string_view kSampleTies = "triangles on the lattice of the sample
 constexpr std::string_view kFarCorner =
     "triangles that end within 64 px, or just beyond, and reach thousands of pixels to the left and above";
 constexpr std::string_view kNearCorner =
-    "triangles that end within 16 px, but for a side of the scissor or the target, and reach 70 to 114 px to the left and "
+    "triangles that end within 16 px, but for a side of the scissor or the target, and reach 70 to 114 px to the left "
+    "and "
     "above";
 constexpr std::string_view kStraddle =
     "boxes of 4, 8, 16, 32, 64 and 128 px, up to a pixel more or less, on their grids";

@@ -27,8 +27,8 @@ bool leaves_view_volume(const TransformModel& model, const ClipTriangle& triangl
 
 /// What clipping left of a triangle, or a part of that.
 struct WindowTriangle {
-  Triangle triangle;                  ///< snapped
-  Turn turn_before_snap = Turn::none; ///< in binary32
+  Triangle triangle;                   ///< snapped
+  Turn turn_before_snap = Turn::none;  ///< in binary32
 
   bool operator==(const WindowTriangle&) const = default;
 };

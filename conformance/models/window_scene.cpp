@@ -37,9 +37,8 @@ std::vector<bool> culled_twice(const TransformModel& model, const Scene& scene) 
   for (std::size_t first = 0, count = 0; first < triangles.size(); first += count) {
     count = std::min(model.also_culls, triangles.size() - first);
     const auto together = std::span(triangles).subspan(first, count);
-    if (std::ranges::none_of(together, [&](const ClipTriangle& triangle) {
-          return leaves_view_volume(model, triangle);
-        })) {
+    if (std::ranges::none_of(together,
+                             [&](const ClipTriangle& triangle) { return leaves_view_volume(model, triangle); })) {
       continue;
     }
     std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(first), count, true);

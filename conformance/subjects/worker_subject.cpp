@@ -18,8 +18,8 @@ constexpr std::size_t kPartBytes = std::size_t{2} << 20;
 // Far above what a software rasterizer needs for a sample on a loaded machine.
 constexpr double kMicrosecondsPerSample = 2;
 
-// An assembly's triangles share vertices, and are numbered through. What llvmpipe culls depends on what else it clips in
-// the same draw.
+// An assembly's triangles share vertices, and are numbered through. What llvmpipe culls depends on what else it clips
+// in the same draw.
 bool in_one_draw(const Scene& scene) { return scene.assembly || (scene.clip && scene.setting.cull != CullMode::none); }
 
 std::size_t aligned(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
