@@ -123,6 +123,12 @@ std::span<const Generator> generators() {
                 scissored({16, 15, 1, 1}), families::ties},
       Generator{"scissor_empty", "scissor", "random triangles, a scissor that holds no pixel", scissored({9, 9, 0, 4}),
                 families::uniform},
+      Generator{"scissor_samples4", "scissor", "random triangles, 4 samples a pixel, a scissor inside the target",
+                within({32, 32}, {5, 7, 19, 13}, 4), families::uniform},
+      Generator{
+          "scissor_tiles_samples4", "scissor",
+          "random triangles, 4 samples a pixel, a scissor that begins with a tile of 64 px, and a pixel after one",
+          within({90, 100}, {64, 65, 20, 30}, 4), families::uniform},
       Generator{"cull_back", "cull", "triangles on the half-pixel lattice, backs culled",
                 culled(CullMode::back, FrontFace::clockwise), families::ties},
       Generator{"cull_front", "cull", "random triangles, counter-clockwise fronts culled",

@@ -3,48 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "conformance/models/transform_model.h"
+#include "conformance/models/llvmpipe_setup.h"
 
 namespace edgecase::conformance {
 namespace {
 
-constexpr int kTile = 64;
-constexpr int kSubpixelBits = 8;
-constexpr std::int64_t kPixel = std::int64_t{1} << kSubpixelBits;
+using namespace llvmpipe;
+
 /// The largest extent of triangles that are drawn in 32 bits from the start, in pixels.
 constexpr std::int64_t kMostShort = 128;
 /// Within so many pixels those with four edges are drawn at once.
 constexpr int kBlock = 16;
-
-struct Point {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-};
-using Points = std::array<Point, 3>;
-
-std::optional<Points> snapped_points(const Setting& setting, const Triangle& triangle) {
-  Points points;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto position = snapped(lavapipe_model(), setting, triangle[i]);
-    if (!position) return std::nullopt;
-    points[i] = {static_cast<std::int64_t>(position->x * kPixel), static_cast<std::int64_t>(position->y * kPixel)};
-  }
-  return points;
-}
-
-/// From a pixel's corner to where its edge functions begin.
-std::int64_t first_sample(const Setting& setting) { return setting.samples() > 1 ? 0 : kPixel / 2; }
-
-struct Edge {
-  std::int64_t c = 0;  ///< at the first centre or corner of the block; greater than 0 is inside
-  std::int64_t a = 0;  ///< c >> 8 from column to column
-  std::int64_t b = 0;  ///< c >> 8 from row to row
-
-  Edge at(std::int64_t columns, std::int64_t rows) const { return {c + (a * columns + b * rows) * kPixel, a, b}; }
-};
 
 bool negative_in_32_bits(std::int64_t value) { return (value >> 31 & 1) != 0; }
 
@@ -59,31 +30,6 @@ bool is_in(const Edge& e, std::int64_t size) {
                               size * (std::min<std::int64_t>(e.a, 0) + std::min<std::int64_t>(e.b, 0)));
 }
 
-/// Pixels first to last, both included.
-struct Box {
-  std::int64_t left, top, right, bottom;
-};
-
-/// From the first pixel that the triangle reaches to the last.
-Box box_of(const Setting& setting, const Points& p) {
-  const std::int64_t s = first_sample(setting);
-  const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
-  const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
-  const auto pixel = [&](std::int64_t v) { return (v - s) >> kSubpixelBits; };
-  return {pixel(left), pixel(top), pixel(right - 1), pixel(bottom - 1)};
-}
-
-Box scissor_of(const Setting& setting) {
-  const Extent target = setting.target;
-  const Rect r = setting.scissor.value_or(Rect{0, 0, target.width, target.height});
-  return {std::max(r.x, 0), std::max(r.y, 0), std::min<std::int64_t>(std::int64_t{r.x} + r.width, target.width) - 1,
-          std::min<std::int64_t>(std::int64_t{r.y} + r.height, target.height) - 1};
-}
-
-bool meet(const Box& a, const Box& b) {
-  return a.left <= b.right && b.left <= a.right && a.top <= b.bottom && b.top <= a.bottom;
-}
-
 /// A side of the scissor is one more edge where the triangle crosses it. Between samples its constants make no
 /// difference; of blocks they decide which are asked sample by sample.
 void append_scissor_edges(const Setting& setting, const Box& box, const Box& scissor, std::vector<Edge>& edges) {
@@ -94,19 +40,6 @@ void append_scissor_edges(const Setting& setting, const Box& box, const Box& sci
   if (box.right > scissor.right) edges.push_back({high(scissor.right), -1, 0});
   if (std::max<std::int64_t>(box.top, 0) < scissor.top) edges.push_back({low(scissor.top), 0, 1});
   if (box.bottom > scissor.bottom) edges.push_back({high(scissor.bottom), 0, -1});
-}
-
-std::vector<Edge> edges_of(const Setting& setting, const Points& p, bool clockwise) {
-  std::vector<Edge> edges(3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point& from = p[clockwise ? i : (i + 1) % 3];
-    const Point& to = p[clockwise ? (i + 1) % 3 : i];
-    const std::int64_t a = from.y - to.y, b = to.x - from.x;
-    const bool top_left = a > 0 || (a == 0 && b > 0);
-    const std::int64_t s = first_sample(setting);
-    edges[i] = {a * (s - from.x) + b * (s - from.y) + (top_left ? 1 : 0), a, b};
-  }
-  return edges;
 }
 
 /// Both extents at once, from the first pixel of a 4x4 block on.
@@ -168,12 +101,9 @@ class Tile {
  private:
   void draw_samples(const std::vector<Edge>& edges, int x, int y) {
     for_each_sample(x, y, 4, [&](int column, int row, int sample) {
-      const SampleLocation& location = setting_.sample_locations[static_cast<std::size_t>(sample)];
-      constexpr std::int64_t kSampleUnit = kPixel >> kSampleGridBits;
       const bool outside = std::ranges::any_of(edges, [&](const Edge& e) {
-        Edge pixel = e.at(column - x, row - y);
-        if (setting_.samples() > 1) pixel.c += (e.a * location.x + e.b * location.y) * kSampleUnit;
-        return negative_in_32_bits((pixel.c - 1) >> kSubpixelBits);
+        const std::int64_t c = value_at(setting_, e.at(column - x, row - y), sample);
+        return negative_in_32_bits((c - 1) >> kSubpixelBits);
       });
       if (!outside) cover(mask_, layout_.bit(column, row, sample));
     });
@@ -221,14 +151,11 @@ bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle) {
 void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
   std::ranges::fill(mask, 0);
   const auto points = snapped_points(setting, triangle);
-  if (!points) return;
-  const auto& [p, q, r] = *points;
-  const std::int64_t area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-  const bool front = (area > 0) == (setting.front_face == FrontFace::clockwise);
-  if (area == 0 || (setting.cull != CullMode::none && front == (setting.cull == CullMode::front))) return;
+  if (!points || is_culled(setting, area_of(*points))) return;
   const Box box = box_of(setting, *points), scissor = scissor_of(setting);
   if (!meet(box, scissor)) return;
-  std::vector<Edge> edges = edges_of(setting, *points, area > 0);
+  const auto of_triangle = edges_of(setting, *points);
+  std::vector<Edge> edges(of_triangle.begin(), of_triangle.end());
   append_scissor_edges(setting, box, scissor, edges);
   if (extent(box) <= kMostShort) return draw_by_four(setting, edges, mask);
   Tile(setting, mask).draw(edges, 0, 0, kTile);

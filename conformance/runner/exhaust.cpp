@@ -117,7 +117,7 @@ class Exhauster {
         }
       }
       const bool concerned =
-          plan_.deviation != nullptr && plan_.deviation->may_concern(scene_.setting, scene_.triangles[i]);
+          plan_.deviation != nullptr && plan_.deviation->in_window.may_concern(scene_.setting, scene_.triangles[i]);
       if (concerned ? observed != predicted(i) : wrong != 0) ++found.unexplained;
     }
     return {};
@@ -135,7 +135,7 @@ class Exhauster {
 
   std::uint64_t predicted(std::size_t i) {
     scratch_.resize(static_cast<std::size_t>(plan_.target.height));
-    plan_.deviation->predict(scene_.setting, scene_.triangles[i], scratch_);
+    plan_.deviation->in_window.predict(scene_.setting, scene_.triangles[i], scratch_);
     return packed(scratch_);
   }
 

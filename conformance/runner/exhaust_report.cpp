@@ -28,7 +28,7 @@ tl::expected<Finding, Error> first_finding(const ExhaustPlan& plan, const Exhaus
   if (auto drawn = (*subject)->draw(finding.scene, finding.observed); !drawn) return tl::unexpected(drawn.error());
   if (plan.deviation != nullptr) {
     std::vector<std::uint64_t> predicted(finding.observed[0].size());
-    plan.deviation->predict(finding.scene.setting, finding.scene.triangles[0], predicted);
+    plan.deviation->in_window.predict(finding.scene.setting, finding.scene.triangles[0], predicted);
     finding.known = std::ranges::equal(predicted, finding.observed[0]);
   }
   return finding;

@@ -194,11 +194,11 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
 
 bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
   if (deviation_ == nullptr) return false;
-  if (!scene.clip) return deviation_->may_concern(scene.setting, scene.triangles[triangle]);
+  if (!scene.clip) return deviation_->in_window.may_concern(scene.setting, scene.triangles[triangle]);
   const WindowScene& window = reference_.window();
   const auto parts = std::span(window.scene.triangles).subspan(window.first[triangle], window.parts_of(triangle));
   return std::ranges::any_of(parts,
-                             [&](const Triangle& part) { return deviation_->may_concern(window.scene.setting, part); });
+                             [&](const Triangle& part) { return deviation_->of_part.may_concern(window.scene.setting, part); });
 }
 
 // Cracks are no fault by themselves: masks that are as the model of the clipper predicts are judged already. Only where
@@ -229,7 +229,7 @@ bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
   if (scene.clip) {
     predict_clipped(triangle);
   } else {
-    deviation_->predict(scene.setting, scene.triangles[triangle], predicted_);
+    deviation_->in_window.predict(scene.setting, scene.triangles[triangle], predicted_);
   }
   return std::ranges::equal(predicted_, observed_[triangle]);
 }
@@ -251,8 +251,8 @@ void Judge::predict_clipped(std::size_t triangle) {
   std::ranges::fill(predicted_, 0);
   for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
     part_.assign(reference_.part(i).begin(), reference_.part(i).end());
-    if (deviation_->may_concern(setting, window.scene.triangles[i])) {
-      deviation_->predict(setting, window.scene.triangles[i], part_);
+    if (deviation_->of_part.may_concern(setting, window.scene.triangles[i])) {
+      deviation_->of_part.predict(setting, window.scene.triangles[i], part_);
     } else {
       window.region.filter(part_);
     }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "conformance/models/llvmpipe_window.h"
 #include "conformance/models/llvmpipe_wrap.h"
 #include "conformance/models/softpipe_model.h"
 
@@ -20,12 +21,13 @@ using Json = nlohmann::json;
 
 struct Model {
   std::string_view name;
-  bool (*concerns)(const Setting&, const Triangle&);
-  void (*predict)(const Setting&, const Triangle&, MutableMaskView);
+  DeviationModel in_window;
+  DeviationModel of_part;
 };
 
-constexpr std::array kModels{Model{"softpipe", nullptr, predict_softpipe},
-                             Model{"llvmpipe_wrap", llvmpipe_may_wrap, predict_llvmpipe_wrap}};
+constexpr std::array kModels{
+    Model{"softpipe", {nullptr, predict_softpipe}, {nullptr, predict_softpipe}},
+    Model{"llvmpipe", {llvmpipe_may_deviate, predict_llvmpipe}, {llvmpipe_may_wrap, predict_llvmpipe_wrap}}};
 
 tl::unexpected<Error> bad(const std::filesystem::path& file, std::string_view what) {
   return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{}: {}", file.string(), what)});
@@ -69,7 +71,7 @@ tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std
     if (std::ranges::find(result, *subject, &KnownDeviation::subject) != result.end()) {
       return bad(file, fmt::format("[{}].subject: \"{}\" is there twice", i, *subject));
     }
-    result.push_back({*subject, device.value_or(std::string()), *cause, model->concerns, model->predict});
+    result.push_back({*subject, device.value_or(std::string()), *cause, model->in_window, model->of_part});
   }
   return result;
 }

@@ -13,6 +13,17 @@
 
 namespace edgecase::conformance {
 
+struct DeviationModel {
+  /// Whether it may predict anything but what the rules say of that triangle; null if it replaces the rules.
+  bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
+  /// Writes every word of the mask that the subject is predicted to draw.
+  void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
+
+  bool may_concern(const Setting& setting, const Triangle& triangle) const {
+    return concerns == nullptr || concerns(setting, triangle);
+  }
+};
+
 /// A deviation is excused by nothing but a model that predicts every sample of the subject's masks, right and wrong
 /// ones. Where the subject follows the model it is known; where it does not, in either direction, it fails: so that an
 /// entry for a subject that has been put right cannot stay.
@@ -21,15 +32,12 @@ struct KnownDeviation {
   /// If not empty, it concerns every `vulkan:...` subject of which the device's name has this in it, too.
   std::string device;
   std::string cause;
-  /// Whether the model may predict anything but what the rules say of that triangle; null if it replaces the rules.
-  bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
-  /// Writes every word of the mask that the subject is predicted to draw.
-  void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
+  DeviationModel in_window{};  ///< of triangles in window positions
+  /// Of what clipping left of a triangle, within the scissor that the driver itself is given; the rest is said by the
+  /// TransformModel.
+  DeviationModel of_part{};
 
-  bool replaces_rules() const { return concerns == nullptr; }
-  bool may_concern(const Setting& setting, const Triangle& triangle) const {
-    return replaces_rules() || concerns(setting, triangle);
-  }
+  bool replaces_rules() const { return in_window.concerns == nullptr; }
 };
 
 /// Reads the list, a JSON array of {"subject", "device" (optional), "model", "cause"}; errors name file, entry and

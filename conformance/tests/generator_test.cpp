@@ -50,6 +50,8 @@ TEST(Generators, MakeTheSameTrianglesEverywhere) {
       {"random", 11013290841486168273u},
       {"ties", 11294867062831296997u},
       {"range", 500351732551055826u},
+      {"scissor_samples4", 3261703659364170180u},
+      {"scissor_tiles_samples4", 17602763684170489598u},
       {"near_corner_scissor", 16134352526467627886u},
       {"near_corner_small", 13981501639455335586u},
       {"far_corner", 16813038179702320542u},

@@ -1,0 +1,18 @@
+// What llvmpipe covers of triangles in window positions where that is not what the rules say: where edge values wrap
+// (llvmpipe_wrap.h), and beside the scissor, which lets through half a pixel if there is more than one sample to a
+// pixel (drawn_region.h). In clip space the scissor is a part of the TransformModel.
+#pragma once
+
+#include "conformance/scene/mask.h"
+#include "conformance/scene/scene.h"
+
+namespace edgecase::conformance {
+
+/// Whether it may be anything but what the rules say.
+bool llvmpipe_may_deviate(const Setting& setting, const Triangle& triangle);
+
+/// Writes every word of `mask`, which has MaskLayout(setting), for a triangle that llvmpipe_may_deviate(). Positions
+/// pass through the viewport transform unchanged (enclosing_viewport.h).
+void predict_llvmpipe(const Setting& setting, const Triangle& triangle, MutableMaskView mask);
+
+}  // namespace edgecase::conformance
