@@ -207,11 +207,15 @@ const Generator* find_generator(std::string_view name) {
   return nullptr;
 }
 
-void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene) {
+void SceneStream::append(std::uint64_t index, Scene& scene) const {
   const Lattice lattice(scene.setting.target, scene.rules.subpixel_bits);
-  Random random = Random::stream(seed, generator.name, index);
-  if (generator.viewport && !scene.clip) scene.clip = ClipGeometry{*generator.viewport, {}};
-  generator.append(lattice, random, scene);
+  Random random = random_.item(index);
+  if (generator_.viewport && !scene.clip) scene.clip = ClipGeometry{*generator_.viewport, {}};
+  generator_.append(lattice, random, scene);
+}
+
+void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene) {
+  SceneStream(generator, seed).append(index, scene);
 }
 
 }  // namespace edgecase::conformance

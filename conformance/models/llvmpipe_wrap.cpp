@@ -173,6 +173,7 @@ bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle) {
   const auto [least_x, greatest_x] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
   const auto [least_y, greatest_y] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
   constexpr float kMargin = kTile + 1;
+  static_assert((2 * kLlvmpipeExactReach + kMargin) * (2 * kLlvmpipeExactReach + kMargin) < 0x1p22F);
   if ((greatest_x - least_x + kMargin) * (greatest_y - least_y + kMargin) < 0x1p22F) return false;
   const auto points = snapped_points(setting, triangle);
   if (!points) return false;

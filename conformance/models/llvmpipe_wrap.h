@@ -26,6 +26,10 @@
 
 namespace edgecase::conformance {
 
+/// Triangles of which every coordinate is at most this many pixels from 0 never wrap: within the first tile their edges'
+/// values stay below 2^22 square pixels.
+inline constexpr float kLlvmpipeExactReach = 990;
+
 /// Whether an edge's value can be too large for llvmpipe; if not, it covers what the rules say.
 bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle);
 

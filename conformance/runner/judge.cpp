@@ -72,7 +72,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   comparison.triangles -= unpredicted;
   comparison.samples_compared -= unpredicted * layout.sample_count();
   outcome.triangles.add(comparison);
-  if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
+  if (comparison.wrong_triangles != 0 || any_may_deviate(judged_scene(batch))) {
     if (auto judged = judge_triangles(batch, comparison.wrong_triangles == 0, outcome); !judged) return judged;
   }
   judge_meshes(batch, first_triangle, outcome);
@@ -199,6 +199,11 @@ bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
   const auto parts = std::span(window.scene.triangles).subspan(window.first[triangle], window.parts_of(triangle));
   return std::ranges::any_of(parts,
                              [&](const Triangle& part) { return deviation_->may_concern(window.scene.setting, part); });
+}
+
+bool Judge::any_may_deviate(const Scene& scene) const {
+  if (deviation_ == nullptr) return false;
+  return deviation_->may_concern_any(scene.clip ? reference_.window().scene.triangles : scene.triangles);
 }
 
 // Cracks are no fault by themselves: masks that are as the model of the clipper predicts are judged already. Only where

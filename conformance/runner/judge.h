@@ -93,6 +93,8 @@ class Judge {
   void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the known deviation may concern that triangle of the scene last given to the reference.
   bool may_deviate(const Scene& scene, std::size_t triangle) const;
+  /// Whether it may concern any of that scene's triangles. May say yes where it does not.
+  bool any_may_deviate(const Scene& scene) const;
   void judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);
