@@ -18,7 +18,10 @@ constexpr std::size_t kPartBytes = std::size_t{2} << 20;
 // Far above what a software rasterizer needs for a sample on a loaded machine.
 constexpr double kMicrosecondsPerSample = 2;
 
-std::size_t aligned(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+// The most that a Vulkan device may ask for of where a storage buffer begins.
+constexpr std::size_t kAlignment = 256;
+
+std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
 }  // namespace
 
