@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 namespace edgecase::conformance {
 namespace {
@@ -122,12 +123,12 @@ void OutlineBuilder::Edges<Key>::reserve(std::size_t triangles) {
     slots_.assign(slots_.size(), {});
     mesh_ = 1;
   }
-  used_.clear();
+  used_.resize(3 * triangles);
+  used_count_ = 0;
 }
 
 template <typename Key>
 void OutlineBuilder::Edges<Key>::add(Key from, Key to) {
-  if (from == to) return;
   const Key low = std::min(from, to);
   const Key high = std::max(from, to);
   // All bits of a product bear on its upper ones. Odd multipliers from splitmix64 and its relatives; any that spread
@@ -144,12 +145,13 @@ void OutlineBuilder::Edges<Key>::add(Key from, Key to) {
   while (slots_[i].mesh == mesh_ && !(slots_[i].low == low && slots_[i].high == high)) {
     i = (i + 1) & (slots_.size() - 1);
   }
+  // Whether an edge is there already, no processor can predict either.
   Slot& slot = slots_[i];
-  if (slot.mesh != mesh_) {
-    slot = {low, high, 0, mesh_};
-    used_.push_back(static_cast<std::uint32_t>(i));
-  }
-  slot.times += from == low ? 1 : -1;
+  const bool fresh = slot.mesh != mesh_;
+  used_[used_count_] = static_cast<std::uint32_t>(i);
+  used_count_ += fresh ? 1 : 0;
+  // An edge without length leads nowhere.
+  slot = {low, high, (fresh ? 0 : slot.times) + (from == low ? 1 : -1) * (from == to ? 0 : 1), mesh_};
 }
 
 template <typename Key>
@@ -161,11 +163,14 @@ void OutlineBuilder::Edges<Key>::collect(std::span<const GridTriangle> mesh, std
     add(b, c);
     add(c, a);
   }
-  for (const std::uint32_t i : used_) {
+  outline.resize(used_count_);
+  std::size_t left = 0;
+  for (const std::uint32_t i : std::span(used_).first(used_count_)) {
     const auto& [low, high, times, owner] = slots_[i];
-    if (times > 0) outline.push_back({point_of(low), point_of(high), times});
-    if (times < 0) outline.push_back({point_of(high), point_of(low), -times});
+    outline[left] = {point_of(times > 0 ? low : high), point_of(times > 0 ? high : low), std::abs(times)};
+    left += times != 0 ? 1 : 0;
   }
+  outline.resize(left);
 }
 
 std::span<const OutlineEdge> OutlineBuilder::build(std::span<const GridTriangle> mesh) {

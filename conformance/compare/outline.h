@@ -55,7 +55,8 @@ class OutlineBuilder {
 
     std::vector<Slot> slots_;  ///< open addressing; a slot of another mesh than mesh_ is free
     int hash_shift_ = 0;
-    std::vector<std::uint32_t> used_;
+    std::vector<std::uint32_t> used_;  ///< slots of this mesh, in the order in which they were taken
+    std::size_t used_count_ = 0;
     std::uint32_t mesh_ = 0;
   };
 

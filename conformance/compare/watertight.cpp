@@ -118,6 +118,14 @@ void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const Sampl
   const int times = std::min(edge.times, 2);
   const int winding = (up ? times : -times) * turn;
   if (first_row > last_row) return;
+  // Right of the target an edge changes nothing; on its left only which rows it crosses matters.
+  if (std::min(x0, x1) > (width - 1) << scale_bits_) return;
+  if (std::max(x0, x1) < 0) {
+    for (Int row = first_row; row <= last_row && row << scale_bits_ != y1; ++row) {
+      crossings_.push_back({static_cast<std::int32_t>(row), 0, winding});
+    }
+    return;
+  }
   // The first row's sample column at or right of the edge, and how far right of it: excess / denominator columns, less
   // than one. From row to row the edge moves by dx / dy columns.
   const Int denominator = dy << scale_bits_;

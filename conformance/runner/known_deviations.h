@@ -27,7 +27,7 @@ struct KnownDeviation {
   bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
   /// Writes every word of the mask that the subject is predicted to draw.
   void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
-  /// No triangle with all coordinates at most this many pixels from 0 is concerned; negative if nobody knows.
+  /// No triangle with all coordinates at most this many pixels from 0 is concerned; negative if that holds of none.
   float exact_reach = -1;
 
   bool replaces_rules() const { return concerns == nullptr; }
@@ -36,7 +36,7 @@ struct KnownDeviation {
   }
   /// Whether it may concern any of them. May say yes where it does not.
   bool may_concern_any(std::span<const Triangle> triangles) const {
-    return replaces_rules() || !(magnitudes(triangles).largest <= exact_reach);
+    return replaces_rules() || !all_within(triangles, exact_reach);
   }
 };
 

@@ -53,7 +53,9 @@ WorkerSubject::WorkerSubject(const std::string& name, WorkerCommand command, std
 }
 
 std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
-  if (auto reason = Subject::refusal(scene)) return reason;
+  // That every vertex passes the viewport, which reaches as far as max_coordinate, is what is asked of nearly all.
+  const bool carried = viewport_.carries(scene.triangles);
+  if (auto reason = carried ? refusal_of_setting(scene) : Subject::refusal(scene)) return reason;
   if (!has_standard_samples(scene.setting)) return "sample locations other than the standard ones";
   const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
   if (mask_bytes > max_mask_bytes_) {
@@ -67,7 +69,7 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
     return fmt::format("{} triangles in one assembly: their masks exceed its largest buffer, {} bytes",
                        scene.triangles.size(), max_mask_bytes_);
   }
-  if (viewport_.carries(magnitudes(scene.triangles))) return std::nullopt;
+  if (carried) return std::nullopt;
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     for (std::size_t v = 0; v < 3; ++v) {
       const Position& p = scene.triangles[t][v];
