@@ -63,6 +63,9 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   } else {
     outcome.triangles.triangles += batch.scene.triangles.size();
     outcome.triangles.samples_compared += batch.scene.triangles.size() * MaskLayout(batch.scene.setting).sample_count();
+    if (deviation_ != nullptr && deviation_->may_concern_any(batch.scene.triangles)) {
+      if (auto judged = judge_triangles(batch, true, outcome); !judged) return judged;
+    }
   }
   judge_meshes(batch, first_triangle, outcome);
   return {};
@@ -71,7 +74,7 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
 // Nearly all batches, and nearly all of these are right: what is expected need not be kept then.
 bool Judge::is_plain(const Batch& batch) const {
   return !batch.scene.clip && batch.may.empty() && batch.rule_set->exact() &&
-         (deviation_ == nullptr || !deviation_->may_concern_any(batch.scene.triangles));
+         (deviation_ == nullptr || !deviation_->replaces_rules());
 }
 
 tl::expected<void, Error> Judge::compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
@@ -152,7 +155,7 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
     const bool concerned = may_deviate(judged_scene(batch), i);
     if (all_right && !concerned) continue;
-    const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
+    const Comparison comparison = compare_one(layout, batch, expected()[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
     if (!wrong && !concerned) continue;
     if (wrong && batch.rule_set->exact()) {  // else grant_choices has seen to it

@@ -22,11 +22,11 @@ struct Model {
   std::string_view name;
   bool (*concerns)(const Setting&, const Triangle&);
   void (*predict)(const Setting&, const Triangle&, MutableMaskView);
-  float exact_reach = -1;
+  bool (*concerns_any)(std::span<const Triangle>);
 };
 
-constexpr std::array kModels{Model{"softpipe", nullptr, predict_softpipe},
-                             Model{"llvmpipe_wrap", llvmpipe_may_wrap, predict_llvmpipe_wrap, kLlvmpipeExactReach}};
+constexpr std::array kModels{Model{"softpipe", nullptr, predict_softpipe, nullptr},
+                             Model{"llvmpipe_wrap", llvmpipe_may_wrap, predict_llvmpipe_wrap, any_may_wrap}};
 
 tl::unexpected<Error> bad(const std::filesystem::path& file, std::string_view what) {
   return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{}: {}", file.string(), what)});
@@ -70,7 +70,7 @@ tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std
     if (std::ranges::find(result, *subject, &KnownDeviation::subject) != result.end()) {
       return bad(file, fmt::format("[{}].subject: \"{}\" is there twice", i, *subject));
     }
-    result.push_back({*subject, device.value_or(std::string()), *cause, model->concerns, model->predict, model->exact_reach});
+    result.push_back({*subject, device.value_or(std::string()), *cause, model->concerns, model->predict, model->concerns_any});
   }
   return result;
 }

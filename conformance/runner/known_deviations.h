@@ -8,7 +8,6 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "conformance/scene/coordinates.h"
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
@@ -27,16 +26,15 @@ struct KnownDeviation {
   bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
   /// Writes every word of the mask that the subject is predicted to draw.
   void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
-  /// No triangle with all coordinates at most this many pixels from 0 is concerned; negative if that holds of none.
-  float exact_reach = -1;
+  /// Whether it may concern any of them. May say yes where it does not; null always does.
+  bool (*concerns_any)(std::span<const Triangle>) = nullptr;
 
   bool replaces_rules() const { return concerns == nullptr; }
   bool may_concern(const Setting& setting, const Triangle& triangle) const {
     return replaces_rules() || concerns(setting, triangle);
   }
-  /// Whether it may concern any of them. May say yes where it does not.
   bool may_concern_any(std::span<const Triangle> triangles) const {
-    return replaces_rules() || !all_within(triangles, exact_reach);
+    return concerns_any == nullptr || concerns_any(triangles);
   }
 };
 

@@ -23,6 +23,10 @@ constexpr std::size_t kAlignment = 256;
 
 std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
+// An assembly's triangles share vertices, and are numbered through. What llvmpipe culls depends on what else it clips
+// in the same draw.
+bool in_one_draw(const Scene& scene) { return scene.assembly || (scene.clip && scene.setting.cull != CullMode::none); }
+
 }  // namespace
 
 tl::expected<std::unique_ptr<Subject>, Error> WorkerSubject::start(const std::string& name, WorkerCommand command) {
@@ -65,9 +69,9 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
       std::ranges::count(scene.assembly->indices, kRestartIndex) != 0) {
     return "a restart index in a list of triangles";
   }
-  if (scene.assembly && mask_bytes * scene.triangles.size() > max_mask_bytes_) {
-    return fmt::format("{} triangles in one assembly: their masks exceed its largest buffer, {} bytes",
-                       scene.triangles.size(), max_mask_bytes_);
+  if (in_one_draw(scene) && mask_bytes * triangle_count(scene) > max_mask_bytes_) {
+    return fmt::format("{} triangles in one draw: their masks exceed its largest buffer, {} bytes",
+                       triangle_count(scene), max_mask_bytes_);
   }
   if (carried) return std::nullopt;
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
@@ -83,8 +87,7 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
 }
 
 std::size_t WorkerSubject::most_at_once(const Scene& scene) const {
-  // An assembly cannot be split: its triangles share vertices, and are numbered through.
-  if (scene.assembly) return scene.triangles.size();
+  if (in_one_draw(scene)) return triangle_count(scene);
   const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
   return std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
 }
