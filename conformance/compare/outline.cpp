@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 namespace edgecase::conformance {
 namespace {
@@ -112,26 +113,24 @@ std::optional<int> common_orientation(std::span<const GridTriangle> mesh) {
 
 template <typename Key>
 void OutlineBuilder::Edges<Key>::reserve(std::size_t triangles) {
-  // At most half full, so that probing ends soon.
-  if (const std::size_t needed = std::bit_ceil(triangles * 6 + 1); slots_.size() < needed) {
+  // At most half full, so that probing ends soon; of a larger table the beginning is used, which stays in the cache.
+  const std::size_t needed = std::bit_ceil(triangles * 6 + 2);
+  hash_shift_ = 64 - std::countr_zero(needed);
+  if (slots_.size() < needed) {
     slots_.assign(needed, {});
-    hash_shift_ = 64 - std::countr_zero(needed);
+    used_.resize(needed / 2);
     mesh_ = 0;
   }
   if (++mesh_ == 0) {
     slots_.assign(slots_.size(), {});
     mesh_ = 1;
   }
-  used_.clear();
 }
 
+/// All bits of a product bear on its upper ones. Odd multipliers from splitmix64 and its relatives; any that spread
+/// small integers would do. With wide keys the upper halves, the rows, get a share by addition.
 template <typename Key>
-void OutlineBuilder::Edges<Key>::add(Key from, Key to) {
-  if (from == to) return;
-  const Key low = std::min(from, to);
-  const Key high = std::max(from, to);
-  // All bits of a product bear on its upper ones. Odd multipliers from splitmix64 and its relatives; any that spread
-  // small integers would do. With wide keys the upper halves, the rows, get a share by addition.
+std::uint64_t hash_of(Key low, Key high) {
   const auto folded = [](Key key) {
     if constexpr (sizeof(Key) == 8) {
       return key;
@@ -139,33 +138,44 @@ void OutlineBuilder::Edges<Key>::add(Key from, Key to) {
       return static_cast<std::uint64_t>(key) + std::rotl(static_cast<std::uint64_t>(key >> 64), 32);
     }
   };
-  const std::uint64_t hash = (folded(low) * 0x9E3779B97F4A7C15u) ^ (folded(high) * 0xBF58476D1CE4E5B9u);
-  std::size_t i = hash >> hash_shift_;
-  while (slots_[i].mesh == mesh_ && !(slots_[i].low == low && slots_[i].high == high)) {
-    i = (i + 1) & (slots_.size() - 1);
-  }
-  Slot& slot = slots_[i];
-  if (slot.mesh != mesh_) {
-    slot = {low, high, 0, mesh_};
-    used_.push_back(static_cast<std::uint32_t>(i));
-  }
-  slot.times += from == low ? 1 : -1;
+  return (folded(low) * 0x9E3779B97F4A7C15u) ^ (folded(high) * 0xBF58476D1CE4E5B9u);
 }
 
 template <typename Key>
 void OutlineBuilder::Edges<Key>::collect(std::span<const GridTriangle> mesh, std::vector<OutlineEdge>& outline) {
   reserve(mesh.size());
+  // Names of its own for what stays the same, which stores to the slots might change for all a compiler knows.
+  Slot* const slots = slots_.data();
+  std::uint32_t* const used = used_.data();
+  const int shift = hash_shift_;
+  const std::size_t last = (std::size_t{1} << (64 - shift)) - 1;
+  const std::uint32_t current = mesh_;
+  std::size_t count = 0;
+  const auto add = [&](Key from, Key to) {
+    const Key low = std::min(from, to);
+    const Key high = std::max(from, to);
+    std::size_t i = hash_of(low, high) >> shift;
+    while (slots[i].mesh == current && !(slots[i].low == low && slots[i].high == high)) i = (i + 1) & last;
+    // Whether an edge is there already, no processor can predict either. One without length leads nowhere.
+    const bool fresh = slots[i].mesh != current;
+    used[count] = static_cast<std::uint32_t>(i);
+    count += fresh ? 1 : 0;
+    slots[i] = {low, high, (fresh ? 0 : slots[i].times) + (from < to ? 1 : 0) - (to < from ? 1 : 0), current};
+  };
   for (const GridTriangle& triangle : mesh) {
     const Key a = key_of<Key>(triangle[0]), b = key_of<Key>(triangle[1]), c = key_of<Key>(triangle[2]);
     add(a, b);
     add(b, c);
     add(c, a);
   }
-  for (const std::uint32_t i : used_) {
-    const auto& [low, high, times, owner] = slots_[i];
-    if (times > 0) outline.push_back({point_of(low), point_of(high), times});
-    if (times < 0) outline.push_back({point_of(high), point_of(low), -times});
+  outline.resize(count);
+  std::size_t left = 0;
+  for (const std::uint32_t i : std::span(used, count)) {
+    const auto& [low, high, times, owner] = slots[i];
+    outline[left] = {point_of(times > 0 ? low : high), point_of(times > 0 ? high : low), std::abs(times)};
+    left += times != 0 ? 1 : 0;
   }
+  outline.resize(left);
 }
 
 std::span<const OutlineEdge> OutlineBuilder::build(std::span<const GridTriangle> mesh) {

@@ -51,11 +51,10 @@ class OutlineBuilder {
       std::uint32_t mesh = 0;
     };
     void reserve(std::size_t triangles);
-    void add(Key from, Key to);
 
     std::vector<Slot> slots_;  ///< open addressing; a slot of another mesh than mesh_ is free
     int hash_shift_ = 0;
-    std::vector<std::uint32_t> used_;
+    std::vector<std::uint32_t> used_;  ///< slots of this mesh, in the order in which they were taken
     std::uint32_t mesh_ = 0;
   };
 

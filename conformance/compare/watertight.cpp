@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <numeric>
 
 #include "conformance/compare/row_bits.h"
 
@@ -31,6 +30,10 @@ void fill(std::uint64_t* row, const std::uint64_t* pattern, std::size_t begin, s
     row[word] |= bits;
   }
 }
+
+/// Winding numbers are kept with so much added: those around 0, which come up on the way, differ in three digits only.
+constexpr std::uint64_t kNoWinding = 4;
+constexpr std::size_t kCommonPlanes = 3;
 
 }  // namespace
 
@@ -118,6 +121,14 @@ void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const Sampl
   const int times = std::min(edge.times, 2);
   const int winding = (up ? times : -times) * turn;
   if (first_row > last_row) return;
+  // Right of the target an edge changes nothing; on its left only which rows it crosses matters.
+  if (std::min(x0, x1) > (width - 1) << scale_bits_) return;
+  if (std::max(x0, x1) < 0) {
+    for (Int row = first_row; row <= last_row && row << scale_bits_ != y1; ++row) {
+      add_winding(static_cast<std::size_t>(row), 0, winding, pattern);
+    }
+    return;
+  }
   // The first row's sample column at or right of the edge, and how far right of it: excess / denominator columns, less
   // than one. From row to row the edge moves by dx / dy columns.
   const Int denominator = dy << scale_bits_;
@@ -130,8 +141,9 @@ void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const Sampl
     if (column < width) {
       if (column >= 0 && excess == 0) mark_outline(row, column, column + 1);
       if (row << scale_bits_ == y1) return;
-      crossings_.push_back(
-          {static_cast<std::int32_t>(row), static_cast<std::int32_t>(std::max(Int{0}, column)), winding});
+      const std::size_t first_bit =
+          static_cast<std::size_t>(std::max(Int{0}, column)) * static_cast<std::size_t>(layout_.samples);
+      add_winding(static_cast<std::size_t>(row), first_bit, winding, pattern);
     }
     column += step;
     excess += step_excess;
@@ -142,57 +154,59 @@ void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const Sampl
   }
 }
 
-void WatertightChecker::sort_crossings() {
-  // Into rows by counting, then within them, where there are two or four mostly, by insertion.
-  row_places_.assign(static_cast<std::size_t>(layout_.target.height) + 1, 0);
-  for (const Crossing& crossing : crossings_) ++row_places_[static_cast<std::size_t>(crossing.row) + 1];
-  std::partial_sum(row_places_.begin(), row_places_.end(), row_places_.begin());
-  sorted_.resize(crossings_.size());
-  for (const Crossing& crossing : crossings_) sorted_[row_places_[static_cast<std::size_t>(crossing.row)]++] = crossing;
-  for (std::size_t i = 1; i < sorted_.size(); ++i) {
-    const Crossing crossing = sorted_[i];
-    const auto after = [&](const Crossing& other) {
-      return other.row == crossing.row && other.column > crossing.column;
-    };
-    std::size_t place = i;
-    for (; place > 0 && after(sorted_[place - 1]); --place) sorted_[place] = sorted_[place - 1];
-    sorted_[place] = crossing;
+void WatertightChecker::reset_windings(std::span<const OutlineEdge> outline) {
+  std::uint64_t most = 0;
+  for (const OutlineEdge& edge : outline) most += static_cast<std::uint64_t>(std::min(edge.times, 2));
+  // So many bits tell all of -most .. most apart, whatever is added to them.
+  const std::size_t planes = std::max(kCommonPlanes, static_cast<std::size_t>(std::bit_width(2 * most)));
+  if (windings_.size() < planes * layout_.words()) windings_.resize(planes * layout_.words());
+  planes_ = planes;
+  for (std::size_t plane = 0; plane < kCommonPlanes; ++plane) {
+    const auto begin = windings_.begin() + static_cast<std::ptrdiff_t>(plane * layout_.words());
+    std::fill_n(begin, layout_.words(), (kNoWinding >> plane & 1) != 0 ? ~std::uint64_t{0} : 0);
+  }
+  touched_planes_ = kCommonPlanes;
+}
+
+void WatertightChecker::add_winding(std::size_t row, std::size_t first_bit, int winding, const std::uint64_t* pattern) {
+  const std::size_t words = layout_.words();
+  const std::uint64_t down = winding < 0 ? ~std::uint64_t{0} : 0;
+  std::uint64_t from = ~std::uint64_t{0} << (first_bit % 64);
+  for (std::size_t word = first_bit / 64; word < layout_.row_words(); ++word, from = ~std::uint64_t{0}) {
+    // The planes are as many binary counters as a word has bits; 2 is added to their second digit.
+    std::uint64_t carry = pattern[word] & from;
+    std::size_t plane = winding == 1 || winding == -1 ? 0 : 1;
+    for (; carry != 0 && plane < planes_; ++plane) {
+      std::uint64_t& digits = windings_[plane * words + row * layout_.row_words() + word];
+      const std::uint64_t before = digits;
+      digits ^= carry;
+      carry &= before ^ down;
+    }
+    touched_planes_ = std::max(touched_planes_, plane);
   }
 }
 
-bool WatertightChecker::fill_inside(std::size_t sample) {
-  sort_crossings();
-  const std::size_t row_words = layout_.row_words();
-  const int samples = layout_.samples;
-  int winding = 0;
-  for (std::size_t i = 0; i < sorted_.size(); ++i) {
-    const Crossing& crossing = sorted_[i];
-    winding += crossing.winding;
-    const bool last_in_row = i + 1 == sorted_.size() || sorted_[i + 1].row != crossing.row;
-    const std::int32_t end = last_in_row ? layout_.target.width : sorted_[i + 1].column;
-    if (crossing.column < end) {
-      if (winding != 0 && winding != 1) return false;
-      if (winding == 1) {
-        fill(inside_.data() + static_cast<std::size_t>(crossing.row) * row_words,
-             sample_words_.data() + sample * row_words, static_cast<std::size_t>(crossing.column * samples),
-             static_cast<std::size_t>(end * samples));
-      }
-    }
-    if (last_in_row) winding = 0;
+bool WatertightChecker::fill_inside() {
+  const std::size_t words = layout_.words();
+  std::uint64_t beyond = 0;  // 0 and 1 differ in the last digit only
+  for (std::size_t plane = 1; plane < touched_planes_; ++plane) {
+    const std::uint64_t none = (kNoWinding >> plane & 1) != 0 ? ~std::uint64_t{0} : 0;
+    for (std::size_t word = 0; word < words; ++word) beyond |= windings_[plane * words + word] ^ none;
   }
-  return true;
+  std::copy_n(windings_.begin(), words, inside_.begin());
+  const auto rarely_used = windings_.begin() + static_cast<std::ptrdiff_t>(kCommonPlanes * words);
+  std::fill_n(rarely_used, (touched_planes_ - kCommonPlanes) * words, 0);
+  return beyond == 0;
 }
 
 template <typename Int>
 bool WatertightChecker::classify(std::span<const OutlineEdge> outline, int turn) {
-  std::fill(inside_.begin(), inside_.end(), 0);
   std::fill(outline_.begin(), outline_.end(), 0);
+  reset_windings(outline);
   for (std::size_t sample = 0; sample < setting_.sample_locations.size(); ++sample) {
-    crossings_.clear();
     for (const OutlineEdge& edge : outline) scan_edge<Int>(edge, turn, setting_.sample_locations[sample], sample);
-    if (!fill_inside(sample)) return false;
   }
-  return true;
+  return fill_inside();
 }
 
 void WatertightChecker::count_layers(std::span<const std::uint64_t> masks) {

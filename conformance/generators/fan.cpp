@@ -26,6 +26,27 @@ LatticePoint place(const Lattice& lattice, Site site, const LatticePoint& p) {
   return p;
 }
 
+struct Direction {
+  double x = 0;
+  double y = 0;
+};
+
+constexpr std::int64_t kTurn = 4096;
+
+/// The directions of all multiples of 1/4096 of a turn. std::cos and std::sin may differ in the last place between
+/// libraries; angles and lattice units so much coarser than that keep the spokes the same everywhere.
+const std::array<Direction, kTurn>& directions() {
+  static const auto all = [] {
+    std::array<Direction, kTurn> result;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const double angle = static_cast<double>(i) * (2 * std::numbers::pi / kTurn);
+      result[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return result;
+  }();
+  return all;
+}
+
 }  // namespace
 
 // Spokes in order of angle, each strictly clockwise of the one before as seen from the centre, the last back to the
@@ -40,16 +61,14 @@ void fan(const Lattice& lattice, Random& random, Scene& scene) {
   std::array<LatticePoint, kMaxSpokes> spokes;
   std::size_t count = 0;
   const auto wanted = static_cast<std::size_t>(random.between(3, kMaxSpokes));
-  // std::cos and std::sin may differ in the last place between libraries; 2^-12 of a turn and whole lattice units, far
-  // coarser than that, keep the spokes the same everywhere. The turn starts at a random angle.
-  const std::int64_t start = random.between(0, 4095);
+  const std::int64_t start = random.between(0, kTurn - 1);
+  const std::int64_t slot = kTurn / static_cast<std::int64_t>(wanted);
   for (std::size_t i = 0; i < wanted; ++i) {
-    const std::int64_t slot = 4096 / static_cast<std::int64_t>(wanted);
     const std::int64_t turn = start + static_cast<std::int64_t>(i) * slot + random.between(0, slot - 1);
-    const double angle = static_cast<double>(turn) * (2 * std::numbers::pi / 4096);
+    const Direction& direction = directions()[static_cast<std::size_t>(turn % kTurn)];
     const auto radius = static_cast<double>(random.between(reach / 2, reach));
-    const auto dx = static_cast<std::int64_t>(std::floor(radius * std::cos(angle) + 0.25));
-    const auto dy = static_cast<std::int64_t>(std::floor(radius * std::sin(angle) + 0.25));
+    const auto dx = static_cast<std::int64_t>(std::floor(radius * direction.x + 0.25));
+    const auto dy = static_cast<std::int64_t>(std::floor(radius * direction.y + 0.25));
     const LatticePoint spoke = place(lattice, spoke_site, {centre.x + dx, centre.y + dy});
     if (count == 0 || orientation(centre, spokes[count - 1], spoke) > 0) spokes[count++] = spoke;
   }

@@ -36,8 +36,22 @@ std::span<const Generator> clip_generators();
 /// The generator of that name, or null.
 const Generator* find_generator(std::string_view name);
 
-/// Appends scene number `index` of `generator` for a rasterizer with `scene.rules.subpixel_bits`, at least 1, to
-/// `scene`, whose setting must be the generator's; a generator in clip space gives the scene its viewport.
+/// The scenes that a generator makes of one seed. Keeps the generator.
+class SceneStream {
+ public:
+  SceneStream(const Generator& generator, std::uint64_t seed)
+      : generator_(generator), random_(Random::of_family(seed, generator.name)) {}
+
+  /// Appends scene number `index` for a rasterizer with `scene.rules.subpixel_bits`, at least 1, to `scene`, whose
+  /// setting must be the generator's; a generator in clip space gives the scene its viewport.
+  void append(std::uint64_t index, Scene& scene) const;
+
+ private:
+  const Generator& generator_;
+  Random random_;
+};
+
+/// The same for one scene.
 void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene);
 
 }  // namespace edgecase::conformance

@@ -123,10 +123,10 @@ std::span<const Generator> generators() {
                 scissored({16, 15, 1, 1}), families::ties},
       Generator{"scissor_empty", "scissor", "random triangles, a scissor that holds no pixel", scissored({9, 9, 0, 4}),
                 families::uniform},
-      Generator{"scissor_samples4", "scissor", "random triangles, 4 samples a pixel, a scissor inside the target",
+      Generator{"scissor_samples4", "settings", "random triangles, 4 samples a pixel, a scissor inside the target",
                 within({32, 32}, {5, 7, 19, 13}, 4), families::uniform},
       Generator{
-          "scissor_tiles_samples4", "scissor",
+          "scissor_tiles_samples4", "settings",
           "random triangles, 4 samples a pixel, a scissor that begins with a tile of 64 px, and a pixel after one",
           within({90, 100}, {64, 65, 20, 30}, 4), families::uniform},
       Generator{"cull_back", "cull", "triangles on the half-pixel lattice, backs culled",
@@ -231,11 +231,15 @@ const Generator* find_generator(std::string_view name) {
   return nullptr;
 }
 
-void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene) {
+void SceneStream::append(std::uint64_t index, Scene& scene) const {
   const Lattice lattice(scene.setting.target, scene.rules.subpixel_bits);
-  Random random = Random::stream(seed, generator.name, index);
-  if (generator.viewport && !scene.clip) scene.clip = ClipGeometry{*generator.viewport, {}};
-  generator.append(lattice, random, scene);
+  Random random = random_.item(index);
+  if (generator_.viewport && !scene.clip) scene.clip = ClipGeometry{*generator_.viewport, {}};
+  generator_.append(lattice, random, scene);
+}
+
+void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene) {
+  SceneStream(generator, seed).append(index, scene);
 }
 
 }  // namespace edgecase::conformance

@@ -14,8 +14,17 @@ class Random {
 
   /// The stream for item `index` of the family `name`: independent of every other item's.
   static Random stream(std::uint64_t seed, std::string_view name, std::uint64_t index) {
+    return of_family(seed, name).item(index);
+  }
+
+  /// What the streams of all items of a family begin with.
+  static Random of_family(std::uint64_t seed, std::string_view name) {
     Random random(seed);
     for (const char c : name) random.state_ = random.next() ^ static_cast<unsigned char>(c);
+    return random;
+  }
+  Random item(std::uint64_t index) const {
+    Random random = *this;
     random.state_ = random.next() ^ index;
     random.state_ = random.next();
     return random;

@@ -1,15 +1,23 @@
 #include <algorithm>
-#include <utility>
+#include <array>
 
 #include "conformance/generators/families.h"
 
 namespace edgecase::conformance::families {
 namespace {
 
+// Two points in either order, by look-up: no processor could predict a branch.
+std::array<LatticePoint, 2> in_any_order(Random& random, const LatticePoint& a, const LatticePoint& b) {
+  const std::array points{a, b};
+  const std::size_t first = random.one_in(2) ? 1 : 0;
+  return {points[first], points[1 - first]};
+}
+
 // Either winding and every rotation comes up: no generator that uses this favours an order of vertices.
-void append(const Lattice& lattice, Random& random, LatticePoint a, LatticePoint b, LatticePoint c, Scene& scene) {
-  if (random.one_in(2)) std::swap(b, c);
-  scene.triangles.push_back(lattice.triangle(a, b, c));
+void append(const Lattice& lattice, Random& random, const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
+            Scene& scene) {
+  const auto [second, third] = in_any_order(random, b, c);
+  scene.triangles.push_back(lattice.triangle(a, second, third));
 }
 
 }  // namespace
@@ -61,8 +69,8 @@ void sliver(const Lattice& lattice, Random& random, Scene& scene) {
   const std::int64_t off = random.one_in(2) ? 1 : random.between(1, lattice.half_pixel());
   const LatticePoint c{a.x + (b.x - a.x) * along / 16 + random.between(-off, off),
                        a.y + (b.y - a.y) * along / 16 + random.between(-off, off)};
-  if (random.one_in(2)) std::swap(a, b);
-  append(lattice, random, a, b, c, scene);
+  const auto [first, second] = in_any_order(random, a, b);
+  append(lattice, random, first, second, c, scene);
 }
 
 // Vertices up to 8,000 px out, the reach growing by powers of two: where products stop fitting 16, 32 and 48 bits. Half

@@ -11,9 +11,11 @@ namespace {
 
 using namespace llvmpipe;
 
+bool loose_scissor(const Setting& setting) { return setting.samples() > 1 && setting.scissor; }
+
 // Whether the triangle's box has to do with the column of pixels left of the scissor or the row above it.
 bool may_pass_scissor(const Setting& setting, const Triangle& triangle) {
-  if (setting.samples() == 1 || !setting.scissor) return false;
+  if (!loose_scissor(setting)) return false;
   const auto points = snapped_points(setting, triangle);
   if (!points) return false;
   const Box box = box_of(setting, *points), scissor = scissor_of(setting);
@@ -49,6 +51,10 @@ void draw_past_scissor(const Setting& setting, const Triangle& triangle, Mutable
 
 bool llvmpipe_may_deviate(const Setting& setting, const Triangle& triangle) {
   return llvmpipe_may_wrap(setting, triangle) || may_pass_scissor(setting, triangle);
+}
+
+bool llvmpipe_any_may_deviate(const Setting& setting, std::span<const Triangle> triangles) {
+  return loose_scissor(setting) || any_may_wrap(triangles);
 }
 
 void predict_llvmpipe(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {

@@ -3,6 +3,8 @@
 // pixel (drawn_region.h). In clip space the scissor is a part of the TransformModel.
 #pragma once
 
+#include <span>
+
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
 
@@ -10,6 +12,9 @@ namespace edgecase::conformance {
 
 /// Whether it may be anything but what the rules say.
 bool llvmpipe_may_deviate(const Setting& setting, const Triangle& triangle);
+
+/// The same for a whole list: says no only if it does so for each of them. Looks at little more than their extents.
+bool llvmpipe_any_may_deviate(const Setting& setting, std::span<const Triangle> triangles);
 
 /// Writes every word of `mask`, which has MaskLayout(setting), for a triangle that llvmpipe_may_deviate(). Positions
 /// pass through the viewport transform unchanged (enclosing_viewport.h).

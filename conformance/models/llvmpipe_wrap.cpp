@@ -126,26 +126,44 @@ class Tile {
   MutableMaskView mask_;
 };
 
+/// Of nearly all triangles this is all that is asked: whether an edge's value within the tile could come to 2^23 px^2,
+/// or at a sample of the first block to 2^13. In operations that take no branch.
+struct Reach {
+  bool huge;
+  bool by_four;
+
+  explicit Reach(const Triangle& t) {
+    constexpr float kMargin = kTile + 1;
+    const auto least = [](float a, float b) { return a < b ? a : b; };
+    const auto greatest = [](float a, float b) { return a > b ? a : b; };
+    const float right = greatest(greatest(t[0].x, t[1].x), t[2].x), bottom = greatest(greatest(t[0].y, t[1].y), t[2].y);
+    const float width = right - least(least(t[0].x, t[1].x), t[2].x);
+    const float height = bottom - least(least(t[0].y, t[1].y), t[2].y);
+    huge = (width + kMargin) * (height + kMargin) >= 0x1p22F;
+    by_four = (greatest(right, bottom) < kBlock + 1) & ((width + 1) * (height + 1) >= 0x1p13F);
+  }
+  bool far() const { return huge | by_four; }
+};
+
 }  // namespace
 
 bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle) {
-  // Of nearly all triangles this is all that is asked: whether an edge's value within the tile could come to 2^23 px^2,
-  // or at a sample of the first block to 2^13.
-  const auto [least_x, greatest_x] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
-  const auto [least_y, greatest_y] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
-  constexpr float kMargin = kTile + 1;
-  const float width = greatest_x - least_x, height = greatest_y - least_y;
-  const bool huge = (width + kMargin) * (height + kMargin) >= 0x1p22F;
-  const bool by_four = std::max(greatest_x, greatest_y) < kBlock + 1 && (width + 1) * (height + 1) >= 0x1p13F;
-  if (!huge && !by_four) return false;
+  const Reach reach(triangle);
+  if (!reach.far()) return false;
   const auto points = snapped_points(setting, triangle);
   if (!points) return false;
   const Box box = box_of(setting, *points);
   if (box.right < 0 || box.bottom < 0 || box.right >= kTile || box.bottom >= kTile) return false;
-  if (extent(box) <= kMostShort) return by_four && may_wrap_by_four(setting, box);
+  if (extent(box) <= kMostShort) return reach.by_four && may_wrap_by_four(setting, box);
   // The most that an edge's value can come to within the tile, in pixels.
   const std::int64_t columns = box.right - box.left + 1, rows = box.bottom - box.top + 1;
   return rows * (columns + kTile) + columns * (rows + kTile) >= std::int64_t{1} << (31 - kSubpixelBits);
+}
+
+bool any_may_wrap(std::span<const Triangle> triangles) {
+  bool any = false;
+  for (const Triangle& triangle : triangles) any |= Reach(triangle).far();
+  return any;
 }
 
 void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {

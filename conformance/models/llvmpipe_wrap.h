@@ -26,6 +26,8 @@
 // some 90 px to the left and above. Multisampled triangles do not go this way.
 #pragma once
 
+#include <span>
+
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
 
@@ -33,6 +35,9 @@ namespace edgecase::conformance {
 
 /// Whether an edge's value may be too large for llvmpipe; if not, it covers what the rules say.
 bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle);
+
+/// The same for a whole list: says no only if it does so for each of them. Looks at nothing but their extents.
+bool any_may_wrap(std::span<const Triangle> triangles);
 
 /// Writes every word of `mask`, which has MaskLayout(setting), for a triangle that llvmpipe_may_wrap(). Positions pass
 /// through the viewport transform unchanged (enclosing_viewport.h).

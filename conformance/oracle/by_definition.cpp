@@ -49,11 +49,40 @@ std::string decimal(Wide value) {
 
 // The pixels of one axis, clamped to the target, that the closed interval [low, high] touches. A triangle lies inside
 // its closed bounding box, so every sample in other pixels is outside.
-std::pair<int, int> touched_pixels(Wide low, Wide high, int bits, int extent) {
-  const Wide first = std::max<Wide>(low >> bits, 0);
-  const Wide last = std::min<Wide>(high >> bits, extent - 1);
+template <typename Number>
+std::pair<int, int> touched_pixels(Number low, Number high, int bits, int extent) {
+  const Number first = std::max<Number>(low >> bits, 0);
+  const Number last = std::min<Number>(high >> bits, extent - 1);
   if (first > last) return {0, 0};
   return {static_cast<int>(first), static_cast<int>(last) + 1};
+}
+
+// Whether every vertex, and every sample of the target, lies within kNarrowReach.
+bool is_narrow(const Setting& setting, const Rules& rules, const std::array<GridPoint, 3>& vertices) {
+  const std::int64_t reach = kNarrowReach >> (common_bits(rules) - rules.subpixel_bits);
+  const auto within = [&](std::int64_t v) { return -reach < v && v < reach; };
+  return std::int64_t{std::max(setting.target.width, setting.target.height)} << common_bits(rules) < kNarrowReach &&
+         std::all_of(vertices.begin(), vertices.end(), [&](const GridPoint& p) { return within(p.x) && within(p.y); });
+}
+
+template <typename Number>
+void cover_outline(const Setting& setting, const Rules& rules, const OutlineIn<Number>& outline, MutableMaskView mask) {
+  if (is_culled(setting, outline)) return;
+  const MaskLayout layout(setting);
+  const auto [left, right] = std::minmax({outline.vertices[0].x, outline.vertices[1].x, outline.vertices[2].x});
+  const auto [top, bottom] = std::minmax({outline.vertices[0].y, outline.vertices[1].y, outline.vertices[2].y});
+  const auto [x_begin, x_end] = touched_pixels(left, right, common_bits(rules), setting.target.width);
+  const auto [y_begin, y_end] = touched_pixels(top, bottom, common_bits(rules), setting.target.height);
+
+  for (int y = y_begin; y < y_end; ++y) {
+    for (int x = x_begin; x < x_end; ++x) {
+      if (!scissor_holds(setting, x, y)) continue;
+      for (int s = 0; s < setting.samples(); ++s) {
+        const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(s)];
+        if (outline.covers(sample_point<Number>(rules, location, x, y))) cover(mask, layout.bit(x, y, s));
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -66,22 +95,11 @@ GridPoint snap(const Rules& rules, const Position& position) {
 
 void cover_by_definition(const Setting& setting, const Rules& rules, const Triangle& triangle, MutableMaskView mask) {
   std::fill(mask.begin(), mask.end(), 0);
-  const MaskLayout layout(setting);
-  const Outline outline(rules, snapped_vertices(rules, triangle));
-  if (is_culled(setting, outline)) return;
-  const auto [left, right] = std::minmax({outline.vertices[0].x, outline.vertices[1].x, outline.vertices[2].x});
-  const auto [top, bottom] = std::minmax({outline.vertices[0].y, outline.vertices[1].y, outline.vertices[2].y});
-  const auto [x_begin, x_end] = touched_pixels(left, right, common_bits(rules), setting.target.width);
-  const auto [y_begin, y_end] = touched_pixels(top, bottom, common_bits(rules), setting.target.height);
-
-  for (int y = y_begin; y < y_end; ++y) {
-    for (int x = x_begin; x < x_end; ++x) {
-      if (!scissor_holds(setting, x, y)) continue;
-      for (int s = 0; s < setting.samples(); ++s) {
-        const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(s)];
-        if (outline.covers(sample_point(rules, location, x, y))) cover(mask, layout.bit(x, y, s));
-      }
-    }
+  const std::array<GridPoint, 3> vertices = snapped_vertices(rules, triangle);
+  if (is_narrow(setting, rules, vertices)) {
+    cover_outline(setting, rules, OutlineIn<Narrow>(rules, vertices), mask);
+  } else {
+    cover_outline(setting, rules, OutlineIn<Wide>(rules, vertices), mask);
   }
 }
 

@@ -11,52 +11,39 @@
 namespace edgecase::conformance::oracle {
 namespace {
 
-// 127 bits suffice: snapped coordinates are below 2^40 in units of 2^-16 px, slopes quotients of 2^41, a crossing has
-// below 2^99 over 2^57. Should that be wrong, checked arithmetic throws; comparisons of rationals do not multiply.
+// Everything below is in sixteenths of a grid unit, which hold the grid, half a pixel and the sample locations all:
+// below 2^44, slopes quotients of 2^45, the crossing of a row below 2^91 over 2^65. Should that be wrong, checked
+// arithmetic throws.
 using Integer = boost::multiprecision::checked_int128_t;
-using Rational = boost::multiprecision::number<boost::multiprecision::rational_adaptor<Integer::backend_type>>;
 
-struct RationalPoint {
-  Rational x;
-  Rational y;
+struct IntegerPoint {
+  Integer x;
+  Integer y;
 };
 
-Integer floor(const Rational& value) {
-  const Integer& n = numerator(value);
-  const Integer& d = denominator(value);  // positive
-  Integer quotient = n / d;               // truncated
-  if (n < 0 && quotient * d != n) --quotient;
-  return quotient;
+// Smallest integer that is not below n / d, d being positive.
+Integer ceil(const Integer& n, const Integer& d) {
+  const Integer quotient = n / d;  // truncated
+  return n > 0 && quotient * d != n ? Integer(quotient + 1) : quotient;
 }
 
-Integer ceil(const Rational& value) { return -floor(Rational(-value)); }
-
-Rational exact(float value) {
-  int exponent = 0;
-  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 24));
-  exponent -= 24;
-  return exponent >= 0 ? Rational(Integer(mantissa) << exponent) : Rational(Integer(mantissa), Integer(1) << -exponent);
-}
-
-// The multiple of 2^-subpixel_bits that the rules move `value` to.
-Rational snapped(const Rules& rules, float value) {
+// The grid point that the rules move `value` to. In binary64 each step is exact, but for a distance from the grid point
+// below that is rounded to 1 from less than 2^-53 under it, which decides what 1 does.
+Integer snapped(const Rules& rules, float value) {
+  constexpr int kUnit = 1 << kSampleGridBits;
   if (rules.half_pixel_first) {
     Rules plain = rules;
     plain.half_pixel_first = false;
-    return snapped(plain, value - 0.5f) + Rational(1, 2);
+    return snapped(plain, value - 0.5f) + (std::int64_t{kUnit} << rules.subpixel_bits) / 2;
   }
-  const Integer scale = Integer(1) << rules.subpixel_bits;
-  const Rational scaled = exact(value) * scale;
-  if (denominator(scaled) == 1) return exact(value);
-  const Integer below = floor(scaled);
-  const Rational above_by = scaled - below;  // 0 <= above_by < 1
-  const Rational half(1, 2);
-
-  bool up = above_by > half;
-  if (above_by == half) {
+  const double scaled = std::ldexp(static_cast<double>(value), rules.subpixel_bits);
+  const double below = std::floor(scaled);
+  const double above_by = scaled - below;
+  bool up = above_by > 0.5;
+  if (above_by == 0.5) {
     switch (rules.rounding) {
       case SnapRounding::nearest_even:
-        up = below % 2 != 0;
+        up = std::fmod(below, 2) != 0;
         break;
       case SnapRounding::half_up:
         up = true;
@@ -69,15 +56,15 @@ Rational snapped(const Rules& rules, float value) {
     }
   }
   if (rules.rounding == SnapRounding::truncate) up = scaled < 0 && above_by != 0;
-  return Rational(up ? Integer(below + 1) : below, scale);
+  return Integer(static_cast<std::int64_t>(below) + (up ? 1 : 0)) * kUnit;
 }
 
-// An edge that is not horizontal: the rows it crosses and where.
+// An edge that is not horizontal, from its upper end down. In row y it lies at x = upper.x + (y - upper.y) * dx / dy.
 struct Slope {
-  RationalPoint upper;
-  Rational end;      // y of the lower end
-  Rational inverse;  // dx / dy
-  Rational at(const Rational& y) const { return upper.x + (y - upper.y) * inverse; }
+  IntegerPoint upper;
+  Integer end;  // y of the lower end
+  Integer dx;
+  Integer dy;  // positive
 };
 
 // The pixels [begin, end) of one axis that may be covered.
@@ -112,24 +99,22 @@ int dropped_sign(const Setting& setting) {
 
 // The sign of the enclosed area, 1 if clockwise on the screen: the sum over the edges of the trapezoids between edge
 // and y axis, added where the edge goes down and taken away where it goes up.
-int area_sign(const std::array<RationalPoint, 3>& points) {
-  Rational area = 0;
+int area_sign(const std::array<IntegerPoint, 3>& points) {
+  Integer area = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const RationalPoint& from = points[i];
-    const RationalPoint& to = points[(i + 1) % 3];
+    const IntegerPoint& from = points[i];
+    const IntegerPoint& to = points[(i + 1) % 3];
     area += (from.x + to.x) * (to.y - from.y);
   }
   return area.sign();
 }
 
-// Those of them whose sample, `offset` into its pixel, lies in [low, high).
-Pixels columns(const Rational& low, const Rational& high, const Rational& offset, const Pixels& within) {
-  const auto clamped = [&](const Rational& bound) {
-    const Integer column = ceil(Rational(bound - offset));
-    if (column <= within.begin) return within.begin;
-    return column >= within.end ? within.end : static_cast<int>(column);
-  };
-  return {clamped(low), clamped(high)};
+// The first pixel of `within` whose sample, `offset` into its pixel, does not lie below n / d, or its end if there is
+// none; d is positive and a pixel has 2^bits units.
+int first_from(const Integer& n, const Integer& d, int offset, int bits, const Pixels& within) {
+  const Integer pixel = ceil(n - offset * d, d << bits);
+  if (pixel <= within.begin) return within.begin;
+  return pixel >= within.end ? within.end : static_cast<int>(pixel);
 }
 
 }  // namespace
@@ -143,36 +128,40 @@ void cover_by_shift(const Setting& setting, const Rules& rules, const Triangle& 
   std::fill(mask.begin(), mask.end(), 0);
   const MaskLayout layout(setting);
 
-  std::array<RationalPoint, 3> points;
+  std::array<IntegerPoint, 3> points;
   for (std::size_t i = 0; i < 3; ++i) points[i] = {snapped(rules, triangle[i].x), snapped(rules, triangle[i].y)};
   if (const int dropped = dropped_sign(setting); dropped != 0 && area_sign(points) == dropped) return;
 
   std::vector<Slope> slopes;
   for (std::size_t i = 0; i < 3; ++i) {
-    const RationalPoint* upper = &points[i];
-    const RationalPoint* lower = &points[(i + 1) % 3];
+    const IntegerPoint* upper = &points[i];
+    const IntegerPoint* lower = &points[(i + 1) % 3];
     if (upper->y == lower->y) continue;
     if (upper->y > lower->y) std::swap(upper, lower);
-    slopes.push_back({*upper, lower->y, (lower->x - upper->x) / (lower->y - upper->y)});
+    slopes.push_back({*upper, lower->y, lower->x - upper->x, lower->y - upper->y});
   }
   const Pixels across = left_by_scissor(setting.target.width, setting.scissor, &Rect::x, &Rect::width);
   const Pixels down = left_by_scissor(setting.target.height, setting.scissor, &Rect::y, &Rect::height);
   const auto [top, bottom] = std::minmax({points[0].y, points[1].y, points[2].y});
+  const int bits = rules.subpixel_bits + kSampleGridBits;
 
   for (int s = 0; s < setting.samples(); ++s) {
     const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(s)];
-    const Rational offset_x(location.x, 1 << kSampleGridBits);
-    const Rational offset_y(location.y, 1 << kSampleGridBits);
-    const auto [row_begin, row_end] = columns(top, bottom, offset_y, down);
+    const int offset_x = location.x << rules.subpixel_bits;
+    const int offset_y = location.y << rules.subpixel_bits;
+    const int row_begin = first_from(top, 1, offset_y, bits, down);
+    const int row_end = first_from(bottom, 1, offset_y, bits, down);
     for (int row = row_begin; row < row_end; ++row) {
-      const Rational y = row + offset_y;
-      std::array<Rational, 2> crossings;
+      const Integer y = (Integer(row) << bits) + offset_y;
+      // The columns that the crossings begin are in the order in which the crossings are.
+      std::array<int, 2> columns{};
       std::size_t found = 0;
       for (const Slope& slope : slopes) {
-        if (slope.upper.y <= y && y < slope.end) crossings.at(found++) = slope.at(y);
+        if (y < slope.upper.y || slope.end <= y) continue;
+        const Integer crossing = slope.upper.x * slope.dy + (y - slope.upper.y) * slope.dx;  // over dy
+        columns.at(found++) = first_from(crossing, slope.dy, offset_x, bits, across);
       }
-      if (crossings[1] < crossings[0]) std::swap(crossings[0], crossings[1]);
-      const auto [begin, end] = columns(crossings[0], crossings[1], offset_x, across);
+      const auto [begin, end] = std::minmax(columns[0], columns[1]);
       for (int x = begin; x < end; ++x) cover(mask, layout.bit(x, row, s));
     }
   }

@@ -15,10 +15,17 @@ namespace edgecase::conformance::oracle::definition {
 // 2^24 px with 16 subpixel bits are 2^40 grid units; differences have 42 bits with sign, their products 84, sums 85.
 __extension__ using Wide = __int128;
 
-struct Point {
-  Wide x = 0;
-  Wide y = 0;
+// The same in 64 bits, for points less than this far from the origin: differences stay below 2^30, their products below
+// 2^60, sums below 2^61.
+using Narrow = std::int64_t;
+inline constexpr std::int64_t kNarrowReach = std::int64_t{1} << 29;
+
+template <typename Number>
+struct PointIn {
+  Number x = 0;
+  Number y = 0;
 };
+using Point = PointIn<Wide>;
 
 // A finite binary32 is mantissa * 2^exponent with an integer mantissa of at most 24 bits, so that times 2^bits it is an
 // integer plus a fraction of -(exponent + bits) bits, and every rounding is a comparison of that fraction with a
@@ -52,42 +59,47 @@ struct Split {
 // Everything below is in units of 1/2^bits px, bits being fine enough for the vertices and the sample locations both.
 inline int common_bits(const Rules& rules) { return std::max(rules.subpixel_bits, kSampleGridBits); }
 
-inline Point sample_point(const Rules& rules, const SampleLocation& location, int x, int y) {
+template <typename Number = Wide>
+PointIn<Number> sample_point(const Rules& rules, const SampleLocation& location, int x, int y) {
   const int bits = common_bits(rules);
   const int sample_shift = bits - kSampleGridBits;
-  return {(Wide{x} << bits) + (Wide{location.x} << sample_shift),
-          (Wide{y} << bits) + (Wide{location.y} << sample_shift)};
+  return {(Number{x} << bits) + (Number{location.x} << sample_shift),
+          (Number{y} << bits) + (Number{location.y} << sample_shift)};
 }
 
-struct Edge {
+template <typename Number>
+struct EdgeIn {
   int from = 0;
   int to = 0;
-  Point start;
-  Wide dx = 0;
-  Wide dy = 0;
+  PointIn<Number> start;
+  Number dx = 0;
+  Number dy = 0;
 
   // Positive on the right-hand side of start -> end as seen on the screen (y down).
-  Wide at(const Point& p) const { return dx * (p.y - start.y) - dy * (p.x - start.x); }
+  Number at(const PointIn<Number>& p) const { return dx * (p.y - start.y) - dy * (p.x - start.x); }
   // With the inside on its right, a horizontal edge above the triangle runs to the right, a left edge upwards.
   bool is_top() const { return dy == 0 && dx > 0; }
   bool is_left() const { return dy < 0; }
-  bool accepts(Wide value) const { return value > 0 || (value == 0 && (is_top() || is_left())); }
+  bool accepts(Number value) const { return value > 0 || (value == 0 && (is_top() || is_left())); }
 };
 
 // The triangle's edges in an order that has the inside on their right.
-struct Outline {
+template <typename Number>
+struct OutlineIn {
+  using Point = PointIn<Number>;
+  using Edge = EdgeIn<Number>;
   std::array<GridPoint, 3> snapped;
   std::array<Point, 3> vertices;
   std::array<Edge, 3> edges;
   bool degenerate = false;
   bool clockwise = false;
 
-  Outline(const Rules& rules, const std::array<GridPoint, 3>& points) : snapped(points) {
+  OutlineIn(const Rules& rules, const std::array<GridPoint, 3>& points) : snapped(points) {
     const int shift = common_bits(rules) - rules.subpixel_bits;
     for (std::size_t i = 0; i < 3; ++i) {
-      vertices[i] = {Wide{snapped[i].x} << shift, Wide{snapped[i].y} << shift};
+      vertices[i] = {Number{snapped[i].x} << shift, Number{snapped[i].y} << shift};
     }
-    const Wide area = edge(0, 1).at(vertices[2]);
+    const Number area = edge(0, 1).at(vertices[2]);
     degenerate = area == 0;
     clockwise = area > 0;
     edges = area >= 0 ? std::array{edge(0, 1), edge(1, 2), edge(2, 0)} : std::array{edge(0, 2), edge(2, 1), edge(1, 0)};
@@ -116,6 +128,8 @@ struct Outline {
            std::all_of(edges.begin(), edges.end(), [&](const Edge& e) { return e.at(p) == 0; });
   }
 };
+using Edge = EdgeIn<Wide>;
+using Outline = OutlineIn<Wide>;
 
 // By definition again: the scissor is asked pixel by pixel.
 inline bool scissor_holds(const Setting& setting, int x, int y) {
@@ -125,7 +139,8 @@ inline bool scissor_holds(const Setting& setting, int x, int y) {
 }
 
 // By definition, too: the front is whichever winding the setting calls so.
-inline bool is_culled(const Setting& setting, const Outline& outline) {
+template <typename Number>
+bool is_culled(const Setting& setting, const OutlineIn<Number>& outline) {
   const bool front = outline.clockwise == (setting.front_face == FrontFace::clockwise);
   return setting.cull != CullMode::none && front == (setting.cull == CullMode::front);
 }

@@ -52,6 +52,32 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   if (!drawn) return tl::unexpected(drawn.error());
   observed_ = *drawn;
   window_.reset();
+  agreed_ = false;
+  if (is_plain(batch)) {
+    auto agreed = reference_.expects(batch.scene, first_triangle, observed_);
+    if (!agreed) return tl::unexpected(agreed.error());
+    agreed_ = *agreed;
+  }
+  if (!agreed_) {
+    if (auto compared = compare(batch, first_triangle, outcome); !compared) return compared;
+  } else {
+    outcome.triangles.triangles += batch.scene.triangles.size();
+    outcome.triangles.samples_compared += batch.scene.triangles.size() * MaskLayout(batch.scene.setting).sample_count();
+    if (deviation_ != nullptr && deviation_->in_window.may_concern_any(batch.scene.setting, batch.scene.triangles)) {
+      if (auto judged = judge_triangles(batch, true, outcome); !judged) return judged;
+    }
+  }
+  judge_meshes(batch, first_triangle, outcome);
+  return {};
+}
+
+// Nearly all batches, and nearly all of these are right: what is expected need not be kept then.
+bool Judge::is_plain(const Batch& batch) const {
+  return !batch.scene.clip && batch.may.empty() && batch.rule_set->exact() &&
+         (deviation_ == nullptr || !deviation_->replaces_rules());
+}
+
+tl::expected<void, Error> Judge::compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   if (batch.scene.clip && !batch.rule_set->exact()) {
     window_ =
         Scene{batch.scene.setting, batch.scene.rules, exact_window_triangles(batch.scene).value(), batch.scene.meshes};
@@ -73,9 +99,8 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   comparison.samples_compared -= unpredicted * layout.sample_count();
   outcome.triangles.add(comparison);
   if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
-    if (auto judged = judge_triangles(batch, comparison.wrong_triangles == 0, outcome); !judged) return judged;
+    return judge_triangles(batch, comparison.wrong_triangles == 0, outcome);
   }
-  judge_meshes(batch, first_triangle, outcome);
   return {};
 }
 
@@ -130,7 +155,7 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
     const bool concerned = may_deviate(judged_scene(batch), i);
     if (all_right && !concerned) continue;
-    const Comparison comparison = compare_one(layout, batch, expected_[i], observed_[i], i);
+    const Comparison comparison = compare_one(layout, batch, expected()[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
     if (!wrong && !concerned) continue;
     if (wrong && batch.rule_set->exact()) {  // else grant_choices has seen to it
@@ -164,11 +189,16 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
   const bool snapped_already = all_on_grid(scene.triangles, scale);
   for (const Mesh& mesh : scene.meshes) {
     snapped_.resize(std::max(snapped_.size(), mesh.count));
-    for (std::size_t i = 0; i < mesh.count; ++i) {
-      for (std::size_t v = 0; v < 3; ++v) {
-        const Position& p = scene.triangles[mesh.first + i][v];
-        snapped_[i][v] = snapped_already ? grid_point(p, scale) : oracle::snap(scene.rules, p);
+    const auto snap = [&](const auto& to_grid) {
+      for (std::size_t i = 0; i < mesh.count; ++i) {
+        const auto& [a, b, c] = scene.triangles[mesh.first + i];
+        snapped_[i] = {to_grid(a), to_grid(b), to_grid(c)};
       }
+    };
+    if (snapped_already) {
+      snap([scale](const Position& p) { return grid_point(p, scale); });
+    } else {
+      snap([&](const Position& p) { return oracle::snap(scene.rules, p); });
     }
     Watertightness found;
     if (const auto open = open_samples(scene, *batch.rule_set, mesh)) {
@@ -184,7 +214,7 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
       wrong.triangle -= first_triangle;
       bool known = deviation_ != nullptr;
       for (std::size_t i = mesh.first; known && i < mesh.first + mesh.count; ++i) {
-        known = may_deviate(scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected_[i], observed_[i]);
+        known = may_deviate(scene, i) ? as_predicted(batch, i) : std::ranges::equal(expected()[i], observed_[i]);
       }
       if (!known) ++outcome.unexplained;
       add_finding(batch, mesh.first, mesh.count, wrong, known, outcome);
@@ -197,8 +227,8 @@ bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
   if (!scene.clip) return deviation_->in_window.may_concern(scene.setting, scene.triangles[triangle]);
   const WindowScene& window = reference_.window();
   const auto parts = std::span(window.scene.triangles).subspan(window.first[triangle], window.parts_of(triangle));
-  return std::ranges::any_of(parts,
-                             [&](const Triangle& part) { return deviation_->of_part.may_concern(window.scene.setting, part); });
+  return std::ranges::any_of(
+      parts, [&](const Triangle& part) { return deviation_->of_part.may_concern(window.scene.setting, part); });
 }
 
 // Cracks are no fault by themselves: masks that are as the model of the clipper predicts are judged already. Only where
@@ -330,7 +360,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
     finding.window = finding.scene;
     finding.window.clip.reset();
     finding.window.triangles = slice(judged_scene(batch).triangles);
-    copy_masks(layout, expected_, first, count, finding.expected);
+    copy_masks(layout, expected(), first, count, finding.expected);
     copy_masks(layout, observed_, first, count, finding.observed);
   }
   finding.wrong = wrong;

@@ -85,6 +85,12 @@ class Judge {
  private:
   /// The scene in the window if the rule set is not exact: no model of a driver has a say in what it demands.
   const Scene& judged_scene(const Batch& batch) const { return window_ ? *window_ : batch.scene; }
+  /// Whether the rules alone say what each triangle has to cover.
+  bool is_plain(const Batch& batch) const;
+  /// Compares mask by mask.
+  tl::expected<void, Error> compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  /// The masks that the last batch should have.
+  MaskBatchView expected() const { return agreed_ ? observed_ : MaskBatchView(expected_); }
   tl::expected<void, Error> grant_choices(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// By the other method.
   tl::expected<void, Error> confirm_choices(const Batch& batch, std::size_t triangle, MaskView asked, MaskView must,
@@ -110,6 +116,7 @@ class Judge {
   Subject& subject_;
   Reference& reference_;
   const KnownDeviation* deviation_;
+  bool agreed_ = false;  ///< the last batch was drawn as expected, and expected_ says nothing
   MaskBatch expected_;
   MaskBatchView observed_;  ///< where the subject has them, or in scratch_
   MaskBatch scratch_;

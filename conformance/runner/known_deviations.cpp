@@ -25,9 +25,10 @@ struct Model {
   DeviationModel of_part;
 };
 
-constexpr std::array kModels{
-    Model{"softpipe", {nullptr, predict_softpipe}, {nullptr, predict_softpipe}},
-    Model{"llvmpipe", {llvmpipe_may_deviate, predict_llvmpipe}, {llvmpipe_may_wrap, predict_llvmpipe_wrap}}};
+constexpr std::array kModels{Model{"softpipe", {nullptr, predict_softpipe}, {nullptr, predict_softpipe}},
+                             Model{"llvmpipe",
+                                   {llvmpipe_may_deviate, predict_llvmpipe, llvmpipe_any_may_deviate},
+                                   {llvmpipe_may_wrap, predict_llvmpipe_wrap}}};
 
 tl::unexpected<Error> bad(const std::filesystem::path& file, std::string_view what) {
   return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{}: {}", file.string(), what)});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -18,9 +19,14 @@ struct DeviationModel {
   bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
   /// Writes every word of the mask that the subject is predicted to draw.
   void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
+  /// Whether it may concern any of them. May say yes where it does not; null always does.
+  bool (*concerns_any)(const Setting& setting, std::span<const Triangle> triangles) = nullptr;
 
   bool may_concern(const Setting& setting, const Triangle& triangle) const {
     return concerns == nullptr || concerns(setting, triangle);
+  }
+  bool may_concern_any(const Setting& setting, std::span<const Triangle> triangles) const {
+    return concerns_any == nullptr || concerns_any(setting, triangles);
   }
 };
 

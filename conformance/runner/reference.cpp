@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "conformance/oracle/oracle.h"
 #include "conformance/scene/grid.h"
@@ -17,6 +18,9 @@ Position snapped(const Rules& rules, const Position& position) {
   return {std::ldexp(static_cast<float>(p.x), -rules.subpixel_bits),
           std::ldexp(static_cast<float>(p.y), -rules.subpixel_bits)};
 }
+
+// Half of what the usual second-level cache holds at least.
+constexpr std::size_t kPartBytes = std::size_t{1} << 17;
 
 }  // namespace
 
@@ -33,6 +37,22 @@ tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t fi
   must.reset(MaskLayout(scene.setting), triangle_count(scene));
   unite(*window_, parts_, must);
   return {};
+}
+
+tl::expected<bool, Error> Reference::expects(const Scene& scene, std::uint64_t first_index,
+                                             const MaskBatchView& observed) {
+  window_.reset();
+  const MaskLayout layout(scene.setting);
+  const std::size_t most = std::max<std::size_t>(1, kPartBytes / (layout.words() * sizeof(std::uint64_t)));
+  part_.setting = scene.setting;
+  part_.rules = scene.rules;
+  for (std::size_t first = 0; first < scene.triangles.size(); first += most) {
+    const auto triangles = std::span(scene.triangles).subspan(first, std::min(most, scene.triangles.size() - first));
+    part_.triangles.assign(triangles.begin(), triangles.end());
+    if (auto drawn = expect_window(part_, first_index + first, parts_); !drawn) return tl::unexpected(drawn.error());
+    if (!std::ranges::equal(std::as_const(parts_).data(), observed.data(first, triangles.size()))) return false;
+  }
+  return true;
 }
 
 tl::expected<void, Error> Reference::expect_window(const Scene& scene, std::uint64_t first_index, MaskBatch& must) {

@@ -42,6 +42,10 @@ class Reference {
   /// the three answers differ.
   tl::expected<void, Error> expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
 
+  /// Whether expect() would give just the masks `observed`, padding included; the oracles have their share of it. Only
+  /// of window positions. The masks are made and compared part by part, within the processor's cache, and none is kept.
+  tl::expected<bool, Error> expects(const Scene& scene, std::uint64_t first_index, const MaskBatchView& observed);
+
   /// Where the subject's near plane lies, as far as that is known.
   NearPlane near_plane() const {
     return model_ && model_->depth == DepthRange::minus_w_to_w ? NearPlane::minus_w : NearPlane::zero;
@@ -75,6 +79,7 @@ class Reference {
   std::string unjudged_;
   std::optional<WindowScene> window_;
   MaskBatch parts_;
+  Scene part_;
   Scene snapped_;
   std::vector<std::uint64_t> scratch_;
   std::uint64_t confirmed_ = 0;

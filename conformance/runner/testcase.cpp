@@ -175,6 +175,7 @@ Trial try_generator(const Generator& generator, Subject& subject, const Rules& r
   const std::size_t mask_bytes = MaskLayout(generator.setting).words() * sizeof(std::uint64_t);
   const std::size_t full = std::clamp<std::size_t>(kBatchBytes / mask_bytes, 1, kBatchTriangles);
 
+  const SceneStream scenes(generator, options.seed);
   std::uint64_t index = 0;
   for (std::uint64_t done = 0; done < options.count;) {
     batch.scene.triangles.clear();
@@ -185,7 +186,7 @@ Trial try_generator(const Generator& generator, Subject& subject, const Rules& r
     const std::uint64_t wanted = std::min<std::uint64_t>(full, options.count - done);
     while (triangle_count(batch.scene) < wanted) {
       batch.parts.push_back({index, triangle_count(batch.scene)});
-      append_scene(generator, options.seed, index++, batch.scene);
+      scenes.append(index++, batch.scene);
     }
     trial.skipped = judge.refusal(batch.scene, rule_set);
     if (trial.skipped) break;

@@ -2,50 +2,42 @@
 // written so that compilers turn them into vectors.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <span>
 
 #include "conformance/scene/scene.h"
 
 namespace edgecase::conformance {
 
-/// Coordinates of eight triangles, in their order.
-using CoordinateBlock = std::array<float, 8 * 6>;
-
-/// Calls visit(CoordinateBlock) for eight triangles after another; zeros fill up the last block.
-template <class Visit>
-void for_each_block(std::span<const Triangle> triangles, Visit visit) {
-  static_assert(sizeof(CoordinateBlock) == 8 * sizeof(Triangle));
-  for (std::size_t first = 0; first < triangles.size(); first += 8) {
-    CoordinateBlock block{};
-    std::memcpy(block.data(), &triangles[first], std::min<std::size_t>(8, triangles.size() - first) * sizeof(Triangle));
-    visit(block);
+/// Whether fault(coordinate), a number, is 0 for all of them.
+template <class Fault>
+bool all_without(std::span<const Triangle> triangles, Fault fault) {
+  static_assert(sizeof(Triangle) == 6 * sizeof(float));
+  const auto* bytes = reinterpret_cast<const std::byte*>(triangles.data());
+  std::uint32_t found = 0;
+  for (std::size_t i = 0; i < triangles.size_bytes(); i += sizeof(float)) {
+    float coordinate;
+    std::memcpy(&coordinate, bytes + i, sizeof coordinate);
+    found |= fault(coordinate);
   }
+  return found == 0;
 }
 
-struct Magnitudes {
-  float largest = 0;  ///< NaN if a coordinate is
-  float least_above_zero = std::numeric_limits<float>::infinity();
-};
-
-/// Magnitudes of binary32 compare as their bit patterns do, infinity and NaN above all others.
-inline Magnitudes magnitudes(std::span<const Triangle> triangles) {
-  constexpr auto kInfinity = std::bit_cast<std::int32_t>(std::numeric_limits<float>::infinity());
-  std::int32_t largest = 0, least = kInfinity;
-  for_each_block(triangles, [&](const CoordinateBlock& block) {
-    for (const float coordinate : block) {
-      const std::int32_t magnitude = std::bit_cast<std::int32_t>(coordinate) & 0x7fffffff;
-      largest = std::max(largest, magnitude);
-      least = std::min(least, magnitude == 0 ? kInfinity : magnitude);
-    }
+/// Whether the magnitude of every coordinate is 0 or from `least` to `most`, none of them NaN. Not if `most` is below 0.
+inline bool all_within(std::span<const Triangle> triangles, float most, float least = 0) {
+  // Magnitudes of binary32 compare as their bit patterns do, infinity and NaN above all others. A difference of two is
+  // negative where the first is less.
+  const auto low = std::bit_cast<std::int32_t>(least), high = std::bit_cast<std::int32_t>(most);
+  if (high < 0) return triangles.empty();
+  return all_without(triangles, [low, high](float coordinate) {
+    const std::int32_t magnitude = std::bit_cast<std::int32_t>(coordinate) & 0x7fffffff;
+    const std::int32_t above = high - magnitude;
+    const std::int32_t below_but_not_0 = (magnitude - low) & ~(magnitude - 1);
+    return static_cast<std::uint32_t>(above | below_but_not_0) & 0x80000000;
   });
-  return {std::bit_cast<float>(largest), std::bit_cast<float>(least)};
 }
 
 }  // namespace edgecase::conformance

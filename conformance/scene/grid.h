@@ -22,18 +22,14 @@ inline GridPoint grid_point(const Position& position, float scale) {
 
 /// Whether every vertex lies on the grid within kGridReach. May say no because of a coordinate -0, which is rare.
 inline bool all_on_grid(std::span<const Triangle> triangles, float scale) {
-  constexpr auto kReach = std::bit_cast<std::uint32_t>(kGridReach);
-  std::uint32_t off_grid = 0;
-  for_each_block(triangles, [&](const CoordinateBlock& block) {
-    for (const float coordinate : block) {
-      // What is out of reach becomes 0, which is another pattern than its own.
-      const auto scaled = std::bit_cast<std::uint32_t>(coordinate * scale);
-      const std::uint32_t in_reach = (scaled & 0x7fffffff) < kReach ? ~std::uint32_t{0} : 0;
-      const auto whole = static_cast<std::int32_t>(std::bit_cast<float>(scaled & in_reach));
-      off_grid |= std::bit_cast<std::uint32_t>(static_cast<float>(whole)) ^ scaled;
-    }
+  return all_without(triangles, [scale](float coordinate) {
+    // What is out of reach becomes 0, which is another pattern than its own.
+    constexpr auto kReach = std::bit_cast<std::uint32_t>(kGridReach);
+    const auto scaled = std::bit_cast<std::uint32_t>(coordinate * scale);
+    const std::uint32_t in_reach = (scaled & 0x7fffffff) < kReach ? ~std::uint32_t{0} : 0;
+    const auto whole = static_cast<std::int32_t>(std::bit_cast<float>(scaled & in_reach));
+    return std::bit_cast<std::uint32_t>(static_cast<float>(whole)) ^ scaled;
   });
-  return off_grid == 0;
 }
 
 }  // namespace edgecase::conformance

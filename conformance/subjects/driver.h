@@ -55,6 +55,10 @@ class Driver {
   /// The most mask bytes that one draw may ask for; at least one triangle's at usual targets.
   virtual std::size_t max_mask_bytes() const = 0;
 
+  /// The memory in which the vertices, indices and masks of all later draws lie, until the next call; none before the
+  /// first. A driver may work in it in place. The one before is there until the call returns.
+  virtual void use_memory(std::span<std::byte>) {}
+
   /// Draws each triangle into its own mask: `masks` holds primitives.triangles masks of MaskLayout(setting), at most
   /// max_mask_bytes(), and every word of it is written. `setting` has standard sample locations, a sample count and a
   /// target that info() allows. Returns the seconds that the driver took from submission to the end of the draw.

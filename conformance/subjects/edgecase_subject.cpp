@@ -30,7 +30,7 @@ template <class F>
 Failure check_range(const Scene& scene) {
   // In whatever format of 16 integer bits, none of these rounds to a number outside of it.
   static_assert(kIntegerBits == 16);
-  if (magnitudes(scene.triangles).largest <= 32767) return std::nullopt;
+  if (all_within(scene.triangles, 32767)) return std::nullopt;
   rasterizer::FixedTriangle<F> snapped;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     if (const auto error = rasterizer::snap<F>(to_rasterizer(scene.triangles[i]), snapped, i)) return error;

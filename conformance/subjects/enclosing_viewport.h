@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "conformance/scene/coordinates.h"
 #include "conformance/scene/scene.h"
@@ -38,10 +39,10 @@ class EnclosingViewport {
   }
   bool carries(const Position& p) const { return carries(p.x) && carries(p.y); }
 
-  /// Whether carries() holds of all these. Between the least normal ndc and 1 scaling by a power of two is exact, there
-  /// and back.
-  bool carries(const Magnitudes& window) const {
-    return window.largest <= half_ && window.least_above_zero >= std::numeric_limits<float>::min() * half_;
+  /// Whether carries() holds of every vertex. Between the least normal ndc and 1 scaling by a power of two is exact,
+  /// there and back.
+  bool carries(std::span<const Triangle> triangles) const {
+    return all_within(triangles, half_, std::numeric_limits<float>::min() * half_);
   }
 
  private:

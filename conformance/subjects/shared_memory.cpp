@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -16,6 +17,9 @@ tl::unexpected<Error> failure(const char* what, std::size_t bytes) {
   return tl::unexpected(Error{
       ErrorKind::subject, fmt::format("cannot {} {} bytes of shared memory: {}", what, bytes, std::strerror(errno))});
 }
+
+// A multiple of any page's size.
+constexpr std::size_t kLeastBytes = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -49,7 +53,7 @@ tl::expected<SharedMemory, Error> SharedMemory::create() {
 
 tl::expected<void, Error> SharedMemory::grow(std::size_t bytes) {
   if (bytes <= size_) return {};
-  const std::size_t rounded = std::bit_ceil(bytes);
+  const std::size_t rounded = std::bit_ceil(std::max(bytes, kLeastBytes));
   if (ftruncate(descriptor_, static_cast<off_t>(rounded)) != 0) return failure("reserve", rounded);
   return map(rounded);
 }

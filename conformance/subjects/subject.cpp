@@ -27,7 +27,7 @@ std::optional<std::string> refused_viewport(const SubjectInfo& self, const Viewp
 
 }  // namespace
 
-std::optional<std::string> Subject::refusal(const Scene& scene) const {
+std::optional<std::string> Subject::refusal_of_setting(const Scene& scene) const {
   const SubjectInfo& self = info();
   const Extent target = scene.setting.target;
   if (std::max(target.width, target.height) > self.max_target) {
@@ -44,7 +44,12 @@ std::optional<std::string> Subject::refusal(const Scene& scene) const {
     if (!self.clip) return "clip space";
     if (auto reason = refused_viewport(self, scene.clip->viewport)) return reason;
   }
-  if (magnitudes(scene.triangles).largest <= self.max_coordinate) return std::nullopt;
+  return std::nullopt;
+}
+
+std::optional<std::string> Subject::refusal(const Scene& scene) const {
+  if (auto reason = refusal_of_setting(scene)) return reason;
+  const SubjectInfo& self = info();
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     for (std::size_t v = 0; v < 3; ++v) {
       const Position& position = scene.triangles[i][v];

@@ -53,6 +53,9 @@ class Subject {
   /// viewport, and every coordinate against max_coordinate. Positions off the subpixel grid are fine.
   virtual std::optional<std::string> refusal(const Scene& scene) const;
 
+  /// The same for all but the coordinates.
+  std::optional<std::string> refusal_of_setting(const Scene& scene) const;
+
   /// Draws every triangle of `scene` on its own into `masks`, which it resizes: mask i holds exactly the samples that
   /// triangle i covered. Called only for scenes that are not refused.
   virtual tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) = 0;

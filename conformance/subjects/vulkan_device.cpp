@@ -119,6 +119,12 @@ SubjectInfo describe(const Candidate& candidate, bool colour_target) {
   return info;
 }
 
+bool has_extension(const vk::raii::PhysicalDevice& physical, std::string_view name) {
+  return std::ranges::any_of(physical.enumerateDeviceExtensionProperties(), [&](const vk::ExtensionProperties& e) {
+    return std::string_view(e.extensionName.data()) == name;
+  });
+}
+
 std::optional<std::uint32_t> drawing_family(const vk::raii::PhysicalDevice& physical) {
   const auto families = physical.getQueueFamilyProperties();
   for (std::uint32_t i = 0; i < families.size(); ++i) {
@@ -140,10 +146,11 @@ struct VulkanDevice::State {
   SubjectInfo info;
   std::size_t max_storage_bytes = 0;
   bool colour_target = false;
+  std::size_t host_memory_alignment = 0;
 
   void create_instance(bool validation);
   tl::expected<void, Error> choose(const VulkanSelection& selection);
-  tl::expected<void, Error> create_device();
+  tl::expected<void, Error> create_device(bool copy_masks);
 };
 
 void VulkanDevice::State::create_instance(bool validation) {
@@ -190,7 +197,7 @@ tl::expected<void, Error> VulkanDevice::State::choose(const VulkanSelection& sel
   return {};
 }
 
-tl::expected<void, Error> VulkanDevice::State::create_device() {
+tl::expected<void, Error> VulkanDevice::State::create_device(bool copy_masks) {
   const auto family = drawing_family(physical);
   if (!family || physical.getFeatures().fragmentStoresAndAtomics == VK_FALSE || info.sample_counts.empty()) {
     return absent(
@@ -202,7 +209,15 @@ tl::expected<void, Error> VulkanDevice::State::create_device() {
   vk::PhysicalDeviceFeatures features;
   features.fragmentStoresAndAtomics = VK_TRUE;
   features.geometryShader = info.assembly ? VK_TRUE : VK_FALSE;
-  device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue, {}, {}, &features));
+  vk::DeviceCreateInfo create({}, queue, {}, {}, &features);
+  static constexpr const char* kHostMemory = VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME;
+  if (!copy_masks && has_extension(physical, kHostMemory)) {
+    using Properties = vk::PhysicalDeviceExternalMemoryHostPropertiesEXT;
+    const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, Properties>();
+    host_memory_alignment = chain.get<Properties>().minImportedHostPointerAlignment;
+    create.setPEnabledExtensionNames(kHostMemory);
+  }
+  device = vk::raii::Device(physical, create);
   return {};
 }
 
@@ -216,7 +231,7 @@ tl::expected<std::unique_ptr<VulkanDevice>, Error> VulkanDevice::open(const Vulk
   try {
     state->create_instance(selection.validation);
     if (auto chosen = state->choose(selection); !chosen) return tl::unexpected(chosen.error());
-    if (auto created = state->create_device(); !created) return tl::unexpected(created.error());
+    if (auto created = state->create_device(selection.copy_masks); !created) return tl::unexpected(created.error());
   } catch (const vk::LayerNotPresentError&) {
     return absent(
         fmt::format("no Vulkan layer {}; the Debian package vulkan-validationlayers brings it", kValidationLayer));
@@ -236,6 +251,7 @@ const vk::raii::Device& VulkanDevice::device() const { return state_->device; }
 std::uint32_t VulkanDevice::queue_family() const { return state_->queue_family; }
 const SubjectInfo& VulkanDevice::info() const { return state_->info; }
 std::size_t VulkanDevice::max_storage_bytes() const { return state_->max_storage_bytes; }
+std::size_t VulkanDevice::host_memory_alignment() const { return state_->host_memory_alignment; }
 bool VulkanDevice::colour_target() const { return state_->colour_target; }
 std::optional<std::string> VulkanDevice::take_complaint() { return state_->complaints.take(); }
 

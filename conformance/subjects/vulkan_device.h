@@ -24,6 +24,8 @@ struct VulkanSelection {
   std::string name;
   /// With VK_LAYER_KHRONOS_validation and its synchronization checks.
   bool validation = false;
+  /// Draws into memory of the driver's own, even if it takes ours.
+  bool copy_masks = false;
   /// Draws to a B8G8R8A8 image as well, which nobody reads: drivers take other paths then.
   bool colour_target = false;
 };
@@ -43,6 +45,8 @@ class VulkanDevice {
   const SubjectInfo& info() const;
   std::size_t max_storage_bytes() const;
   bool colour_target() const;
+  /// Memory of the host that begins and ends at multiples of it can be imported; 0 if none can.
+  std::size_t host_memory_alignment() const;
 
   /// The first thing that the validation layer complained of since the last call.
   std::optional<std::string> take_complaint();

@@ -10,6 +10,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "conformance/scene/mask.h"
+#include "conformance/subjects/vulkan_buffers.h"
 #include "conformance/subjects/vulkan_pipelines.h"
 
 namespace edgecase::conformance {
@@ -22,13 +23,10 @@ struct PushConstants {
   std::uint32_t columns;
 };
 
-// A buffer in coherent memory that stays mapped.
-struct MappedBuffer {
-  vk::raii::Buffer buffer{nullptr};
-  vk::raii::DeviceMemory memory{nullptr};
-  void* data = nullptr;
-  std::size_t size = 0;
-};
+constexpr vk::BufferUsageFlags kVertexUse = vk::BufferUsageFlagBits::eVertexBuffer;
+constexpr vk::BufferUsageFlags kIndexUse = vk::BufferUsageFlagBits::eIndexBuffer;
+constexpr vk::BufferUsageFlags kMaskUse =
+    vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst;
 
 class VulkanDriver final : public Driver {
  public:
@@ -36,12 +34,26 @@ class VulkanDriver final : public Driver {
 
   const SubjectInfo& info() const override { return opened_->info(); }
   std::size_t max_mask_bytes() const override { return opened_->max_storage_bytes(); }
+  void use_memory(std::span<std::byte> memory) override;
   tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
                                    std::span<std::uint64_t> masks) override;
 
  private:
+  struct Place {
+    vk::Buffer buffer;
+    vk::DeviceSize offset = 0;
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+  struct Places {
+    Place vertices;
+    Place indices;
+    Place masks;
+    friend bool operator==(const Places&, const Places&) = default;
+  };
+
   // What the command buffer was recorded for.
   struct Recorded {
+    Places places;
     Setting setting;
     Viewport viewport;
     Topology topology = Topology::list;
@@ -51,8 +63,8 @@ class VulkanDriver final : public Driver {
     friend bool operator==(const Recorded&, const Recorded&) = default;
   };
 
-  MappedBuffer make_buffer(std::size_t size, vk::BufferUsageFlags usage) const;
-  void reserve(const Primitives& primitives, std::size_t mask_bytes);
+  std::optional<Places> shared_places(const Primitives& primitives, std::span<const std::uint64_t> masks) const;
+  Places own_places(const Primitives& primitives, std::size_t mask_bytes);
   void record_draw(const Recorded& wanted);
   void record(const Recorded& wanted);
 
@@ -70,6 +82,7 @@ class VulkanDriver final : public Driver {
   MappedBuffer vertices_;
   MappedBuffer indices_;
   MappedBuffer masks_;
+  std::optional<ImportedBuffer> shared_;
   std::optional<Recorded> recorded_;
 };
 
@@ -94,41 +107,36 @@ VulkanDriver::VulkanDriver(std::unique_ptr<VulkanDevice> opened)
       std::move(vk::raii::CommandBuffers(device_, {*command_pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
 }
 
-MappedBuffer VulkanDriver::make_buffer(std::size_t size, vk::BufferUsageFlags usage) const {
-  MappedBuffer result;
-  result.buffer = vk::raii::Buffer(device_, vk::BufferCreateInfo({}, size, usage));
-  const vk::MemoryRequirements needs = result.buffer.getMemoryRequirements();
-  // Host-visible and coherent memory, which every device has, and cached by the host where there is such.
-  using Flag = vk::MemoryPropertyFlagBits;
-  const vk::MemoryPropertyFlags needed = Flag::eHostVisible | Flag::eHostCoherent;
-  const auto type = memory_type(opened_->physical().getMemoryProperties(), needs.memoryTypeBits,
-                                {needed | Flag::eHostCached, needed});
-  result.memory = vk::raii::DeviceMemory(device_, vk::MemoryAllocateInfo(needs.size, type));
-  result.buffer.bindMemory(*result.memory, 0);
-  result.data = result.memory.mapMemory(0, size);
-  result.size = size;
-  return result;
+void VulkanDriver::use_memory(std::span<std::byte> memory) {
+  recorded_.reset();
+  shared_.reset();
+  try {
+    shared_ = ImportedBuffer::make(*opened_, memory, kVertexUse | kIndexUse | kMaskUse);
+  } catch (const vk::SystemError&) {  // a device may say so of any memory: then masks are copied
+  }
+}
+
+std::optional<VulkanDriver::Places> VulkanDriver::shared_places(const Primitives& primitives,
+                                                                std::span<const std::uint64_t> masks) const {
+  if (!shared_) return std::nullopt;
+  const auto vertices = shared_->offset_of(primitives.vertices), indices = shared_->offset_of(primitives.indices);
+  const auto first_mask = shared_->offset_of(masks);
+  if (!vertices || !indices || !first_mask) return std::nullopt;
+  const vk::Buffer buffer = shared_->buffer();
+  return Places{{buffer, *vertices}, {buffer, *indices}, {buffer, *first_mask}};
 }
 
 // Buffers double in size, so that equal and smaller batches allocate nothing.
-void VulkanDriver::reserve(const Primitives& primitives, std::size_t mask_bytes) {
-  using Usage = vk::BufferUsageFlagBits;
-  if (vertices_.size < primitives.vertices.size_bytes()) {
-    vertices_ = make_buffer(std::bit_ceil(primitives.vertices.size_bytes()), Usage::eVertexBuffer);
+VulkanDriver::Places VulkanDriver::own_places(const Primitives& primitives, std::size_t mask_bytes) {
+  const auto reserve = [&](MappedBuffer& buffer, std::size_t bytes, vk::BufferUsageFlags use, std::size_t most) {
+    if (buffer.size >= bytes) return;
     recorded_.reset();
-  }
-  if (indices_.size < primitives.indices.size_bytes()) {
-    indices_ = make_buffer(std::bit_ceil(primitives.indices.size_bytes()), Usage::eIndexBuffer);
-    recorded_.reset();
-  }
-  if (masks_.size < mask_bytes) {
-    const std::size_t size = std::min(std::bit_ceil(mask_bytes), opened_->max_storage_bytes());
-    masks_ = make_buffer(size, Usage::eStorageBuffer | Usage::eTransferDst);
-    const vk::DescriptorBufferInfo whole(*masks_.buffer, 0, VK_WHOLE_SIZE);
-    const vk::WriteDescriptorSet write(*descriptor_set_, 0, 0, vk::DescriptorType::eStorageBuffer, {}, whole);
-    device_.updateDescriptorSets(write, {});
-    recorded_.reset();
-  }
+    buffer = MappedBuffer::make(*opened_, std::min(std::bit_ceil(bytes), most), use);
+  };
+  reserve(vertices_, primitives.vertices.size_bytes(), kVertexUse, SIZE_MAX);
+  reserve(indices_, primitives.indices.size_bytes(), kIndexUse, SIZE_MAX);
+  reserve(masks_, mask_bytes, kMaskUse, opened_->max_storage_bytes());
+  return {{*vertices_.buffer, 0}, {*indices_.buffer, 0}, {*masks_.buffer, 0}};
 }
 
 void VulkanDriver::record_draw(const Recorded& wanted) {
@@ -153,11 +161,11 @@ void VulkanDriver::record_draw(const Recorded& wanted) {
   commands_.setScissor(0, rect(drawn_rectangle(setting)));
   commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *pipeline_layout_, 0, *descriptor_set_, {});
   commands_.pushConstants<PushConstants>(*pipeline_layout_, vk::ShaderStageFlagBits::eFragment, 0, push);
-  commands_.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
+  commands_.bindVertexBuffers(0, wanted.places.vertices.buffer, wanted.places.vertices.offset);
   if (wanted.indices == 0) {
     commands_.draw(static_cast<std::uint32_t>(wanted.vertices), 1, 0, 0);
   } else {
-    commands_.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
+    commands_.bindIndexBuffer(wanted.places.indices.buffer, wanted.places.indices.offset, vk::IndexType::eUint32);
     commands_.drawIndexed(static_cast<std::uint32_t>(wanted.indices), 1, 0, 0, 0);
   }
   commands_.endRenderPass();
@@ -169,11 +177,18 @@ void VulkanDriver::record(const Recorded& wanted) {
   using Stage = vk::PipelineStageFlagBits;
   recorded_.reset();
   commands_.reset();
+  const auto& [buffer, offset] = wanted.places.masks;
+  const vk::DeviceSize bytes = MaskLayout(wanted.setting).words() * sizeof(std::uint64_t) * wanted.triangles;
+  const vk::DescriptorBufferInfo masks(buffer, offset, bytes);
+  device_.updateDescriptorSets(
+      vk::WriteDescriptorSet(*descriptor_set_, 0, 0, vk::DescriptorType::eStorageBuffer, {}, masks), {});
   commands_.begin(vk::CommandBufferBeginInfo{});
-  commands_.fillBuffer(*masks_.buffer, 0, MaskLayout(wanted.setting).words() * sizeof(std::uint64_t) * wanted.triangles,
-                       0);
-  const vk::MemoryBarrier cleared(Access::eTransferWrite, Access::eShaderRead | Access::eShaderWrite);
-  commands_.pipelineBarrier(Stage::eTransfer, Stage::eFragmentShader, {}, cleared, {}, {});
+  commands_.fillBuffer(buffer, offset, bytes, 0);
+  // Of indexed vertices it is not known which are read: in memory that is shared they may be taken for what was
+  // cleared.
+  const vk::MemoryBarrier cleared(Access::eTransferWrite, Access::eShaderRead | Access::eShaderWrite |
+                                                              Access::eVertexAttributeRead | Access::eIndexRead);
+  commands_.pipelineBarrier(Stage::eTransfer, Stage::eFragmentShader | Stage::eVertexInput, {}, cleared, {}, {});
   record_draw(wanted);
   const vk::MemoryBarrier drawn(Access::eShaderWrite, Access::eHostRead);
   commands_.pipelineBarrier(Stage::eFragmentShader, Stage::eHost, {}, drawn, {}, {});
@@ -186,11 +201,14 @@ tl::expected<double, Error> VulkanDriver::draw(const Setting& setting, const Pri
   double seconds = 0;
   if (primitives.triangles == 0) return seconds;
   try {
-    reserve(primitives, masks.size_bytes());
-    record({setting, primitives.viewport, primitives.topology, primitives.vertices.size(), primitives.indices.size(),
-            primitives.triangles});
-    std::ranges::copy(primitives.vertices, static_cast<ClipPosition*>(vertices_.data));
-    std::ranges::copy(primitives.indices, static_cast<std::uint32_t*>(indices_.data));
+    const auto shared = shared_places(primitives, masks);
+    const Places places = shared ? *shared : own_places(primitives, masks.size_bytes());
+    record({places, setting, primitives.viewport, primitives.topology, primitives.vertices.size(),
+            primitives.indices.size(), primitives.triangles});
+    if (!shared) {
+      std::ranges::copy(primitives.vertices, static_cast<ClipPosition*>(vertices_.data));
+      std::ranges::copy(primitives.indices, static_cast<std::uint32_t*>(indices_.data));
+    }
     const auto start = std::chrono::steady_clock::now();
     queue_.submit(vk::SubmitInfo({}, {}, *commands_), *finished_);
     // No limit here: the program watches the time, and ends the process.
@@ -199,7 +217,7 @@ tl::expected<double, Error> VulkanDriver::draw(const Setting& setting, const Pri
     }
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     device_.resetFences(*finished_);
-    std::memcpy(masks.data(), masks_.data, masks.size_bytes());
+    if (!shared) std::memcpy(masks.data(), masks_.data, masks.size_bytes());
   } catch (const vk::SystemError& error) {
     return tl::unexpected(Error{ErrorKind::subject, fmt::format("Vulkan refused a draw: {}", error.what())});
   }

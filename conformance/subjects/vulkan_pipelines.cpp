@@ -119,8 +119,8 @@ vk::raii::Pipeline VulkanPipelines::make_pipeline(const PipelineKey& key) {
   const vk::PipelineMultisampleStateCreateInfo multisample({}, static_cast<vk::SampleCountFlagBits>(key.samples));
   using Channel = vk::ColorComponentFlagBits;
   vk::PipelineColorBlendAttachmentState written;
-  // Not alpha: with all four channels llvmpipe takes a triangle that covers a whole tile of 64x64 pixels to hide whatever
-  // was drawn there before, and never runs those fragments, which are to note their coverage.
+  // Not alpha: with all four channels llvmpipe takes a triangle that covers a whole tile of 64x64 pixels to hide
+  // whatever was drawn there before, and never runs those fragments, which are to note their coverage.
   written.colorWriteMask = Channel::eR | Channel::eG | Channel::eB;
   vk::PipelineColorBlendStateCreateInfo blend;
   if (opened_.colour_target()) blend.setAttachments(written);

@@ -15,8 +15,8 @@
 namespace edgecase::conformance {
 namespace {
 
-bool validation_is_on() {
-  const char* value = std::getenv("EDGECASE_VALIDATION");
+bool is_on(const char* variable) {
+  const char* value = std::getenv(variable);
   return value != nullptr && std::string_view(value) == "1";
 }
 
@@ -26,7 +26,7 @@ tl::expected<std::unique_ptr<Driver>, Error> open_driver(std::string_view subjec
   if (subject.starts_with(kOsmesa)) return open_osmesa_driver(std::string(subject.substr(kOsmesa.size())));
   // lavapipe's device and driver both call themselves llvmpipe. Of an ICD file, which VK_DRIVER_FILES names by now, the
   // first device is taken.
-  VulkanSelection selection{"llvmpipe", validation_is_on()};
+  VulkanSelection selection{"llvmpipe", is_on("EDGECASE_VALIDATION"), is_on("EDGECASE_COPY_MASKS")};
   selection.colour_target = subject == "lavapipe:bgra8";
   if (subject == "swiftshader") selection.name = "SwiftShader";
   if (subject.starts_with(kVulkan)) {

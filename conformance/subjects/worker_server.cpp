@@ -70,9 +70,13 @@ WorkerHello describe(const Driver& driver) {
 
 DrawReply draw(Driver& driver, SharedMemory& memory, const DrawRequest& request) {
   DrawReply reply;
-  if (auto mapped = memory.map(request.memory_bytes); !mapped) {
-    reply.status.set(mapped.error());
-    return reply;
+  if (memory.size() < request.memory_bytes) {
+    driver.use_memory({});
+    if (auto mapped = memory.map(request.memory_bytes); !mapped) {
+      reply.status.set(mapped.error());
+      return reply;
+    }
+    driver.use_memory({memory.data(), memory.size()});
   }
   const auto locations = standard_sample_locations(request.samples);
   Setting setting;

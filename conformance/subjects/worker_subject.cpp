@@ -18,11 +18,14 @@ constexpr std::size_t kPartBytes = std::size_t{2} << 20;
 // Far above what a software rasterizer needs for a sample on a loaded machine.
 constexpr double kMicrosecondsPerSample = 2;
 
+// The most that a Vulkan device may ask for of where a storage buffer begins.
+constexpr std::size_t kAlignment = 256;
+
+std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
+
 // An assembly's triangles share vertices, and are numbered through. What llvmpipe culls depends on what else it clips
 // in the same draw.
 bool in_one_draw(const Scene& scene) { return scene.assembly || (scene.clip && scene.setting.cull != CullMode::none); }
-
-std::size_t aligned(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 }  // namespace
 
@@ -54,7 +57,9 @@ WorkerSubject::WorkerSubject(const std::string& name, WorkerCommand command, std
 }
 
 std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
-  if (auto reason = Subject::refusal(scene)) return reason;
+  // That every vertex passes the viewport, which reaches as far as max_coordinate, is what is asked of nearly all.
+  const bool carried = viewport_.carries(scene.triangles);
+  if (auto reason = carried ? refusal_of_setting(scene) : Subject::refusal(scene)) return reason;
   if (!has_standard_samples(scene.setting)) return "sample locations other than the standard ones";
   const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
   if (mask_bytes > max_mask_bytes_) {
@@ -68,7 +73,7 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
     return fmt::format("{} triangles in one draw: their masks exceed its largest buffer, {} bytes",
                        triangle_count(scene), max_mask_bytes_);
   }
-  if (viewport_.carries(magnitudes(scene.triangles))) return std::nullopt;
+  if (carried) return std::nullopt;
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     for (std::size_t v = 0; v < 3; ++v) {
       const Position& p = scene.triangles[t][v];

@@ -24,18 +24,20 @@ std::vector<Triangle> with(std::size_t count, std::size_t place, float value, fl
   return triangles;
 }
 
-TEST(Coordinates, TheLargestAndTheLeastMagnitudeAreFoundWhereverTheyAre) {
-  EXPECT_EQ(magnitudes({}).largest, 0);
-  EXPECT_EQ(magnitudes({}).least_above_zero, kInfinity);
+TEST(Coordinates, OneOutOfRangeIsFoundWhereverItIs) {
+  EXPECT_TRUE(all_within({}, 7));
   for (std::size_t count = 1; count < 20; ++count) {
     for (std::size_t place = 0; place < 6 * count; ++place) {
-      ASSERT_EQ(magnitudes(with(count, place, -7)).largest, 7) << count << ' ' << place;
-      ASSERT_EQ(magnitudes(with(count, place, -0.5f)).least_above_zero, 0.5f) << count << ' ' << place;
-      ASSERT_EQ(magnitudes(with(count, place, 0)).least_above_zero, 1) << count << ' ' << place;
-      ASSERT_TRUE(std::isnan(magnitudes(with(count, place, kNan)).largest)) << count << ' ' << place;
+      for (const float within : {0.0f, -0.0f, 0.5f, -0.5f, 7.0f, -7.0f}) {
+        ASSERT_TRUE(all_within(with(count, place, within), 7, 0.5f)) << count << ' ' << place << ' ' << within;
+      }
+      for (const float outside : {std::nextafter(-7.0f, -8.0f), std::nextafter(0.5f, 0.0f), kInfinity, -kNan}) {
+        ASSERT_FALSE(all_within(with(count, place, outside), 7, 0.5f)) << count << ' ' << place << ' ' << outside;
+      }
     }
   }
-  EXPECT_EQ(magnitudes(with(3, 17, -kInfinity)).largest, kInfinity);
+  EXPECT_TRUE(all_within(with(3, 17, std::numeric_limits<float>::denorm_min()), 7));
+  EXPECT_FALSE(all_within(with(3, 17, 0, 0), -1));
 }
 
 TEST(Coordinates, OnePointOffTheGridIsFoundWhereverItIs) {
@@ -52,12 +54,12 @@ TEST(Coordinates, OnePointOffTheGridIsFoundWhereverItIs) {
   EXPECT_EQ(grid_point({-3.25f, 16383.5f}, 256), (GridPoint{-832, 4194176}));
 }
 
-TEST(Coordinates, AViewportCarriesTheirMagnitudesExactlyIfItCarriesEach) {
+TEST(Coordinates, AViewportCarriesAllIfItCarriesEach) {
   const EnclosingViewport viewport(8192);
   const float least = std::numeric_limits<float>::min() * 8192;
   for (const float value : {0.0f, 8192.0f, -8192.0f, std::nextafter(8192.0f, 9000.0f), 0.1f, least, -least,
                             std::nextafter(least, 0.0f), kNan, kInfinity, std::numeric_limits<float>::denorm_min()}) {
-    EXPECT_EQ(viewport.carries(magnitudes(with(3, 11, value))), viewport.carries(value)) << value;
+    EXPECT_EQ(viewport.carries(with(3, 11, value)), viewport.carries(value)) << value;
   }
 }
 

@@ -6,17 +6,20 @@
 namespace edgecase::conformance {
 namespace {
 
-class VulkanSubject : public testing::Test {
+// Its masks drawn into the memory that the processes share, which it takes, or copied there, as for those that do not.
+class VulkanSubject : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     setenv("EDGECASE_VALIDATION", "1", 1);
+    setenv("EDGECASE_COPY_MASKS", GetParam(), 1);
     subject_ = subject_or_failure("lavapipe");
     ASSERT_NE(subject_, nullptr);
   }
+  void TearDown() override { unsetenv("EDGECASE_COPY_MASKS"); }
   std::unique_ptr<Subject> subject_;
 };
 
-TEST_F(VulkanSubject, StatesTheDriversOwnLimits) {
+TEST_P(VulkanSubject, StatesTheDriversOwnLimits) {
   const SubjectInfo& info = subject_->info();
   EXPECT_EQ(info.name, "lavapipe");
   EXPECT_THAT(info.device, testing::HasSubstr("llvmpipe"));
@@ -26,18 +29,18 @@ TEST_F(VulkanSubject, StatesTheDriversOwnLimits) {
   EXPECT_EQ(info.max_coordinate, 8192);
 }
 
-TEST_F(VulkanSubject, HandCheckedMasks) { expect_hand_checked_masks(*subject_); }
-TEST_F(VulkanSubject, RandomTrianglesOfOneSample) { expect_exact_random_triangles(*subject_, 1); }
-TEST_F(VulkanSubject, RandomTrianglesOfFourSamples) { expect_exact_random_triangles(*subject_, 4); }
+TEST_P(VulkanSubject, HandCheckedMasks) { expect_hand_checked_masks(*subject_); }
+TEST_P(VulkanSubject, RandomTrianglesOfOneSample) { expect_exact_random_triangles(*subject_, 1); }
+TEST_P(VulkanSubject, RandomTrianglesOfFourSamples) { expect_exact_random_triangles(*subject_, 4); }
 
 // 20,000 masks of 1 KiB are ten buffers' worth; the parts must not overlap, and none may be left out.
-TEST_F(VulkanSubject, BatchesLargerThanTheBuffer) {
+TEST_P(VulkanSubject, BatchesLargerThanTheBuffer) {
   expect_exact(*subject_, random_scene(square_setting(12), 100'000, -4, 16, 64, 4));
   const Scene large = random_scene(square_setting(64), 20'000, 20, 24, 1, 5);
   expect_exact(*subject_, large);
 }
 
-TEST_F(VulkanSubject, AlternatingSettingsKeepNothingOfTheLastBatch) {
+TEST_P(VulkanSubject, AlternatingSettingsKeepNothingOfTheLastBatch) {
   for (unsigned round = 0; round < 3; ++round) {
     for (const int side : {40, 8, 24}) {
       expect_exact(*subject_, random_scene(square_setting(side), 50 + 100 * round, 0, side, 1, round));
@@ -46,11 +49,11 @@ TEST_F(VulkanSubject, AlternatingSettingsKeepNothingOfTheLastBatch) {
   }
 }
 
-TEST_F(VulkanSubject, EmptyBatch) {
+TEST_P(VulkanSubject, EmptyBatch) {
   EXPECT_EQ(drawn(*subject_, random_scene(square_setting(8), 0, 0, 8, 1, 0)).size(), 0U);
 }
 
-TEST_F(VulkanSubject, LargestTarget) {
+TEST_P(VulkanSubject, LargestTarget) {
   Scene scene;
   scene.setting = square_setting(16384);
   scene.triangles = {Triangle{{{8000, 8000}, {8192, 8000}, {8000, 8192}}}};
@@ -66,7 +69,7 @@ TEST_F(VulkanSubject, LargestTarget) {
   EXPECT_FALSE(covered(masks[0], layout.bit(8191, 8000, 0)));
 }
 
-TEST_F(VulkanSubject, DriverSecondsGrowWithEachDraw) {
+TEST_P(VulkanSubject, DriverSecondsGrowWithEachDraw) {
   const Scene scene = random_scene(square_setting(16), 500, 0, 16, 1, 6);
   EXPECT_EQ(subject_->driver_seconds(), 0);
   drawn(*subject_, scene);
@@ -76,7 +79,7 @@ TEST_F(VulkanSubject, DriverSecondsGrowWithEachDraw) {
   EXPECT_GT(subject_->driver_seconds(), once);
 }
 
-TEST_F(VulkanSubject, RefusesWhatItCannotDoWithTheReason) {
+TEST_P(VulkanSubject, RefusesWhatItCannotDoWithTheReason) {
   Scene scene = random_scene(square_setting(8), 3, 0, 8, 1, 7);
   EXPECT_EQ(subject_->refusal(scene), std::nullopt);
 
@@ -96,6 +99,10 @@ TEST_F(VulkanSubject, RefusesWhatItCannotDoWithTheReason) {
   scene.setting = square_setting(16385);
   EXPECT_EQ(subject_->refusal(scene), "target 16385x16385 exceeds 16384 pixels a side");
 }
+
+INSTANTIATE_TEST_SUITE_P(Masks, VulkanSubject, testing::Values("0", "1"), [](const auto& copied) {
+  return std::string_view(copied.param) == "1" ? "Copied" : "InPlace";
+});
 
 // Shows that the layer of the other tests really is asked for.
 TEST(VulkanValidation, MissingLayerIsAbsent) {

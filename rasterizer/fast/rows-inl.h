@@ -130,8 +130,21 @@ inline void region_to_rows(const Strips& strips, std::size_t apart, const Region
   }
 }
 
+/// strips_to_rows where a row is a part of one strip: its words only become longer.
+inline void strip_to_rows(const Strips& strip, std::uint64_t pixels, std::uint64_t* rows) {
+  const hn::CappedTag<std::uint64_t, kMaxLanes / 2> d;
+  const hn::Rebind<std::uint32_t, decltype(d)> d_strip;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  int y = 0;
+  for (; y + lanes <= strip.height; y += lanes) {
+    hn::StoreU(hn::And(hn::PromoteTo(d, hn::LoadU(d_strip, strip.words + y)), hn::Set(d, pixels)), d, rows + y);
+  }
+  for (; y < strip.height; ++y) rows[y] = strip.words[y] & pixels;
+}
+
 /// Writes a whole target's mask of one sample a pixel. `last_word`: the pixels of a row's last word.
 inline void strips_to_rows(const Strips& strips, std::uint64_t last_word, std::uint64_t* rows) {
+  if (strips.count == 1) return strip_to_rows(strips, last_word, rows);
   const std::uint32_t* left = strips.words;
   const int words = (strips.count + 1) / 2;
   for (int word = 0; word < words; ++word, left += 2 * strips.stride) {
