@@ -29,18 +29,24 @@ struct Plan {
   std::size_t parts;
   /// Estimated ns of drawing each tile.
   std::vector<double> tile_work;
-  /// Estimated ns of the whole on these threads.
+  /// Estimated ns of the whole on these threads, which sleep before.
   double estimate;
   /// ns that must be left of a tile for another thread to join: twice what its mask costs to clear and to add.
   double least_help;
 };
 
-/// ns until thread `thread` of several works, 0 being the caller's own: assumed rather than measured.
-double start_of_thread(int thread);
+/// ns from the call until thread `thread` of several works, 0 being the caller's own: as measured on two processors,
+/// assumed for more. First where threads are still waiting for work, as they do for 0.1 to 0.2 ms after a draw; then
+/// where they sleep, and the caller has to wake them.
+double start_awake(int thread);
+double start_asleep(int thread);
 
 /// The plan with `columns` by `rows` tiles for exactly `threads` threads.
 Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads, int columns,
                int rows);
+
+/// Whether more than one thread may save time, as far as can be told at little cost beside that of drawing the list.
+bool may_pay(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target);
 
 /// The plan that is estimated to be done first with up to `threads` threads: one thread's, where more save too little.
 Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads);

@@ -32,8 +32,9 @@ ThreadedRasterizer::ThreadedRasterizer(ThreadedRasterizer&&) noexcept = default;
 ThreadedRasterizer& ThreadedRasterizer::operator=(ThreadedRasterizer&&) noexcept = default;
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask) {
-  if (triangles.empty()) return;
-  cover_union(triangles, mask, make_plan(triangles, mask.target(), state_->arena.max_concurrency()));
+  const int threads = state_->arena.max_concurrency();
+  if (threads == 1 || !may_pay(triangles, mask.target())) return state_->fast.cover_union(triangles, mask);
+  cover_union(triangles, mask, make_plan(triangles, mask.target(), threads));
 }
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask,
