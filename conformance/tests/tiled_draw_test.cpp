@@ -81,6 +81,32 @@ TEST(TiledDraw, AnyThreadsCanDoTheWork) {
   }
 }
 
+TEST(TiledDraw, ASingleTileIsDrawnInPlaceAndNobodyWaitsForWhoHasNotBegun) {
+  Drawing d;
+  StripMask expected(d.target);
+  d.fast.cover_union(d.triangles, expected);
+  const Plan plan{TileGrid(d.target, 1, 1), 2, 1, 5, {5}, 0, 2.5};
+  TiledDraw::Canvas own(0), other(1);
+  {
+    TiledDraw draw(d.fast, d.triangles, plan, d.mask, d.memory);
+    draw.draw({0, 0}, other);
+    EXPECT_EQ(rows(d.mask), std::vector<std::uint64_t>(d.target.mask_words()));
+    for (const std::size_t part : {1, 4, 2}) draw.draw({0, part}, own);
+    EXPECT_NE(rows(d.mask), std::vector<std::uint64_t>(d.target.mask_words()));
+    EXPECT_NE(rows(d.mask), rows(expected));
+    draw.draw({0, 3}, other);
+    draw.finish(own);  // adds what the other one has, too
+    EXPECT_EQ(rows(d.mask), rows(expected));
+    draw.finish(other);
+  }
+  d.mask.clear();
+  TiledDraw draw(d.fast, d.triangles, plan, d.mask, d.memory);
+  draw.work(own);
+  EXPECT_EQ(rows(d.mask), rows(expected));
+  draw.work(other);
+  EXPECT_EQ(rows(d.mask), rows(expected));
+}
+
 TEST(TiledDraw, DrawingWaitsForBins) {
   using namespace std::chrono_literals;
   Drawing d;

@@ -26,6 +26,7 @@ TiledDraw::TiledDraw(const FastRasterizer& fast, std::span<const Triangle> trian
       agenda_(plan.tile_work, plan.parts, plan.least_help) {
   if (!binned()) {
     apart_.resize(static_cast<std::size_t>(plan.threads));
+    agenda_.begin();  // for the canvas in place: a mask apart must be worth adding
     return;
   }
   while (memory_.bins.size() < chunks_) memory_.bins.push_back(std::make_unique<Bins>());
@@ -35,7 +36,6 @@ TiledDraw::TiledDraw(const FastRasterizer& fast, std::span<const Triangle> trian
 void TiledDraw::work(Canvas& canvas) {
   const std::size_t to_bin = binned() ? chunks_ : 0;
   for (std::size_t chunk = next_to_bin_++; chunk < to_bin; chunk = next_to_bin_++) bin(chunk);
-  // Drawing in place costs nothing but itself: no part is too little to help with.
   int tile = in_place(canvas) ? 0 : -1;
   while (const auto part = agenda_.next(tile)) {
     tile = part->tile;
