@@ -1,10 +1,10 @@
 // Plan: into how many tiles, chunks of triangles and threads a drawing is cut, from what each way is estimated to cost.
 //
-// One tile needs no bins: every thread draws its share of the triangles into a mask of its own, and the masks are added
-// up. That costs a mask's worth of memory traffic for each thread. Tiles cost less of it, and their masks stay in the
-// caches, but binning reads and copies every triangle once more, and triangles on a tile's border are drawn in both. So
-// a screen's mask and few threads want one tile; large targets and many threads want more, but no more than needed,
-// because threads help each other with a tile (agenda.h).
+// One tile needs no bins: the first thread draws its share of the triangles in place, each other one into a mask of its
+// own, and these are added up. That costs a mask's worth of memory traffic for each of them. Tiles cost less of it, and
+// their masks stay in the caches, but binning reads and copies every triangle once more, and triangles on a tile's
+// border are drawn in both. So a screen's mask and few threads want one tile; large targets and many threads want more,
+// but no more than needed, because threads help each other with a tile (agenda.h).
 //
 // Rows of tiles before columns: a triangle's rows are what drawing it goes by, so that a cut between rows adds only the
 // setup, while one between columns also makes both sides clip.

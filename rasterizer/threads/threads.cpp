@@ -43,6 +43,7 @@ void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> 
   if (plan.threads <= 1) return state_->fast.cover_union(triangles, mask);
   TiledDraw drawing(state_->fast, triangles, plan, mask, state_->memory);
   const auto work = [&](std::size_t worker) { drawing.work(state_->canvases[worker]); };
+  // The caller begins with worker 0, the canvas in place, and takes over what no other thread has come for.
   state_->arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(plan.threads), work, tbb::simple_partitioner());
   });
