@@ -56,6 +56,10 @@ TEST(Plan, AsMuchWorkAsItTakesToWakeAThreadIsShared) {
   EXPECT_EQ(make_plan(first(100), screen, 2).threads, 2);
   // Large ones are parts by themselves, or the last one would keep the other threads waiting.
   EXPECT_LT(make_plan(first(100), screen, 2).chunk, kMaxLanes);
+  // What pays if the other thread is there need not pay if it must be woken.
+  EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::awake).threads, 2);
+  EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::asleep).threads, 1);
+  EXPECT_EQ(make_plan(first(100), screen, 2, Helpers::asleep).threads, 2);
 }
 
 TEST(Plan, AFewLargeTrianglesAmongSmallOnesAreSeen) {

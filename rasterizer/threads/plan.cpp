@@ -24,10 +24,10 @@ constexpr double kUnclipped = 64;  // unless it has no more rows and columns tha
 
 // Threads that have slept: how long the call that wakes them takes, and when they are there. oneTBB's sleep if there
 // was nothing to do for 0.1 to 0.2 ms. Before that, they begin within kStartThread.
-constexpr double kWake = 8'000, kAsleep = 25'000, kStartThread = 500;
+constexpr double kWake = 8'000, kAsleep = 40'000, kStartThread = 500;
 
-/// A thread is worth it from this much work on: what it takes to wake it.
-constexpr double kLeastWork = kAsleep, kLeastToShare = 2 * kLeastWork;
+/// A thread is worth it from this much work on.
+constexpr double kLeastWork = 25'000, kLeastToShare = 2 * kLeastWork;
 
 /// What a cache line of a mask costs if the mask, of so many bytes, is drawn into anywhere.
 double miss(double bytes) { return bytes <= (1 << 20) ? 0 : bytes <= (16 << 20) ? 4 : 20; }
@@ -170,9 +170,11 @@ std::vector<double> tile_work(const Samples& samples, const TileGrid& grid) {
   return work;
 }
 
-/// When `threads` threads that slept are done, if `total` is shared out evenly.
-double finish_time(double total, int threads) {
-  for (int thread = 0; thread < threads; ++thread) total += start_asleep(thread);
+/// When `threads` threads are done, if `total` is shared out evenly.
+double finish_time(double total, int threads, Helpers helpers) {
+  for (int thread = 0; thread < threads; ++thread) {
+    total += helpers == Helpers::awake ? start_awake(thread) : start_asleep(thread);
+  }
   return total / threads;
 }
 
@@ -191,7 +193,7 @@ std::size_t chunk_of_whole(std::size_t triangles, std::size_t threads, double wo
 }
 
 Plan finish_plan(const Samples& samples, std::size_t triangles, const TileGrid& grid, int threads,
-                 const Estimate& estimate) {
+                 const Estimate& estimate, Helpers helpers) {
   // In bins, so many chunks that a bin holds more than a few triangles; parts as above.
   constexpr std::size_t kPartsPerThread = 32, kChunksPerThread = 8;
   constexpr std::size_t kMostInChunk = 4096;
@@ -211,7 +213,7 @@ Plan finish_plan(const Samples& samples, std::size_t triangles, const TileGrid& 
           chunk,
           parts,
           tiles == 1 ? std::vector{estimate.drawing} : tile_work(samples, grid),
-          finish_time(estimate.total, threads),
+          finish_time(estimate.total, threads, helpers),
           2 * move_word(static_cast<double>(tiles) * tile_words * 4) * tile_words};
 }
 
@@ -223,7 +225,8 @@ double start_asleep(int thread) { return thread == 0 ? kWake : kAsleep + kStartT
 Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads, int columns, int rows) {
   const Samples samples = sample(triangles, target, Samples::kMost);
   const TileGrid grid(target, columns, rows);
-  return finish_plan(samples, triangles.size(), grid, threads, estimate(samples, triangles.size(), grid, threads));
+  return finish_plan(samples, triangles.size(), grid, threads, estimate(samples, triangles.size(), grid, threads),
+                     Helpers::awake);
 }
 
 bool may_pay(std::span<const Triangle> triangles, const Target& target) {
@@ -236,7 +239,7 @@ bool may_pay(std::span<const Triangle> triangles, const Target& target) {
          2 * one_thread_time(sample(triangles, target, 16), target) >= kLeastToShare;
 }
 
-Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads) {
+Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads, Helpers helpers) {
   const Samples samples = sample(triangles, target, Samples::kMost);
   const double one_thread = one_thread_time(samples, target);
   const TileGrid whole(target, 1, 1);
@@ -244,7 +247,7 @@ Plan make_plan(std::span<const Triangle> triangles, const Target& target, int th
   threads = static_cast<int>(std::min(static_cast<double>(threads), one_thread / kLeastWork));
   if (threads <= 1 || !may_pay(triangles, target)) return alone;
   const auto [grid, sum] = best_grid(samples, triangles.size(), target, threads);
-  Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum);
+  Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum, helpers);
   // What is estimated to be saved must be more than what estimates are off by.
   constexpr double kMargin = 1.15;
   return plan.estimate * kMargin < one_thread ? plan : alone;

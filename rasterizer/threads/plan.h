@@ -29,7 +29,7 @@ struct Plan {
   std::size_t parts;
   /// Estimated ns of drawing each tile.
   std::vector<double> tile_work;
-  /// Estimated ns of the whole on these threads, which sleep before.
+  /// Estimated ns of the whole on these threads.
   double estimate;
   /// ns that must be left of a tile for another thread to join: twice what its mask costs to clear and to add.
   double least_help;
@@ -48,7 +48,11 @@ Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Targe
 /// Whether more than one thread may save time, as far as can be told at little cost beside that of drawing the list.
 bool may_pay(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target);
 
+/// Whether the other threads wait for work, or must be woken first.
+enum class Helpers { awake, asleep };
+
 /// The plan that is estimated to be done first with up to `threads` threads: one thread's, where more save too little.
-Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads);
+Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads,
+               Helpers helpers = Helpers::awake);
 
 }  // namespace edgecase::rasterizer
