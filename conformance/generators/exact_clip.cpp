@@ -41,22 +41,9 @@ float binary32_area(const Triangle& t) {
   return (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
 }
 
-}  // namespace
-
-void centres(const Lattice& lattice, Random& random, Scene& scene) {
-  scene.clip->triangles.push_back(unprojected(scene.clip->viewport, on_half_pixels(lattice, random), random));
-}
-
-// Half of them with every coordinate negated: the same positions after division by w, but behind the eye.
-void behind(const Lattice& lattice, Random& random, Scene& scene) {
-  centres(lattice, random, scene);
-  if (random.one_in(2)) return;
-  for (ClipPosition& p : scene.clip->triangles.back()) p = {-p.x, -p.y, -p.z, -p.w};
-}
-
 // A sliver on the grid, its first edge through a pixel's centre, with each vertex moved by up to 3/8 of the grid's
 // unit: the snap moves it back. Taken is the first of several that is wound otherwise before the snap than after it.
-void turned(const Lattice& lattice, Random& random, Scene& scene) {
+Triangle turned_sliver(const Lattice& lattice, Random& random) {
   constexpr int kTries = 16;
   Triangle moved;
   for (int i = 0; i < kTries; ++i) {
@@ -77,7 +64,40 @@ void turned(const Lattice& lattice, Random& random, Scene& scene) {
     }
     if (area != 0 && (area > 0) != (binary32_area(moved) > 0)) break;
   }
-  scene.clip->triangles.push_back(unprojected(scene.clip->viewport, moved, random));
+  return moved;
+}
+
+}  // namespace
+
+void centres(const Lattice& lattice, Random& random, Scene& scene) {
+  scene.clip->triangles.push_back(unprojected(scene.clip->viewport, on_half_pixels(lattice, random), random));
+}
+
+// Half of them with every coordinate negated: the same positions after division by w, but behind the eye.
+void behind(const Lattice& lattice, Random& random, Scene& scene) {
+  centres(lattice, random, scene);
+  if (random.one_in(2)) return;
+  for (ClipPosition& p : scene.clip->triangles.back()) p = {-p.x, -p.y, -p.z, -p.w};
+}
+
+void turned(const Lattice& lattice, Random& random, Scene& scene) {
+  scene.clip->triangles.push_back(unprojected(scene.clip->viewport, turned_sliver(lattice, random), random));
+}
+
+// Moved by half the target towards one of its borders.
+void turned_across(const Lattice& lattice, Random& random, Scene& scene) {
+  Triangle sliver = turned_sliver(lattice, random);
+  const bool sideways = random.one_in(2);
+  const Extent& target = scene.setting.target;
+  const auto by = static_cast<float>((sideways ? target.width : target.height) / 2 * (random.one_in(2) ? 1 : -1));
+  for (Position& p : sliver) (sideways ? p.x : p.y) += by;
+  scene.clip->triangles.push_back(unprojected(scene.clip->viewport, sliver, random));
+}
+
+// So few that some of a thousand slivers drawn together have one among them, and some have none.
+void turned_beside_across(const Lattice& lattice, Random& random, Scene& scene) {
+  constexpr int kOneAcrossIn = 2000;
+  (random.one_in(kOneAcrossIn) ? turned_across : turned)(lattice, random, scene);
 }
 
 }  // namespace edgecase::conformance::families

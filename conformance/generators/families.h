@@ -18,6 +18,7 @@ Append uniform;
 Append ties;
 Append range;
 Append far_corner;
+Append near_corner;
 Append sliver;
 Append tiny;
 Append sample_ties;
@@ -39,6 +40,8 @@ Append behind;
 Append clip_fan;
 Append clip_grid;
 Append turned;
+Append turned_across;
+Append turned_beside_across;
 Append strips;
 Append fans;
 

@@ -10,6 +10,10 @@ namespace {
 constexpr std::string_view kSampleTies = "triangles on the lattice of the sample locations, and slivers through them";
 constexpr std::string_view kFarCorner =
     "triangles that end within 64 px, or just beyond, and reach thousands of pixels to the left and above";
+constexpr std::string_view kNearCorner =
+    "triangles that end within 16 px, but for a side of the scissor or the target, and reach 70 to 114 px to the left "
+    "and "
+    "above";
 constexpr std::string_view kStraddle =
     "boxes of 4, 8, 16, 32, 64 and 128 px, up to a pixel more or less, on their grids";
 constexpr std::string_view kNeedle =
@@ -21,6 +25,9 @@ constexpr std::string_view kClippedFar =
 constexpr std::string_view kClippedFan = "closed fans in clip space across one or more planes, w = 1 or varying";
 constexpr std::string_view kClippedGrid =
     "grids in clip space across one or more planes, w = 1 or varying (NVlabs/nvdiffrast#225: cracks)";
+constexpr std::string_view kTurnedAcross = "slivers that snapping turns over, across a border of the target, culled";
+constexpr std::string_view kTurnedBeside =
+    "slivers that snapping turns over, culled, and now and then one that has to be clipped among them";
 constexpr std::string_view kClipped =
     "triangles in clip space across one or more planes: w = 1, w > 0 varying, w of either sign";
 
@@ -31,8 +38,8 @@ Setting multisampled(int samples) {
   return setting;
 }
 
-Setting culled(CullMode cull, FrontFace front) {
-  Setting setting;
+Setting culled(CullMode cull, FrontFace front, int samples = 1) {
+  Setting setting = multisampled(samples);
   setting.cull = cull;
   setting.front_face = front;
   return setting;
@@ -94,6 +101,8 @@ std::span<const Generator> generators() {
       Generator{"far_corner_wide", "range", kFarCorner, sized({75, 70}), families::far_corner},
       Generator{"far_corner_scissor", "range", kFarCorner, scissored({3, 18, 21, 9}), families::far_corner},
       Generator{"far_corner_samples4", "range", kFarCorner, multisampled(4), families::far_corner},
+      Generator{"near_corner_scissor", "range", kNearCorner, scissored({0, 2, 32, 32}), families::near_corner},
+      Generator{"near_corner_small", "range", kNearCorner, sized({13, 20}), families::near_corner},
       Generator{"sliver",
                 "sliver",
                 "needles up to a few subpixels wide, most of them passing close to pixel centres",
@@ -166,6 +175,15 @@ std::span<const Generator> clip_generators() {
                 Viewport{0, 32, 32, -32}},
       Generator{"cull_turned", "cull", "slivers in clip space that snapping turns over, backs culled",
                 culled(CullMode::back, FrontFace::clockwise), families::turned, Viewport{0, 0, 32, 32}},
+      Generator{"cull_across", "cull", kTurnedAcross, culled(CullMode::back, FrontFace::clockwise),
+                families::turned_across, Viewport{0.3F, -1.7F, 33.1F, 27.9F}},
+      Generator{"cull_across_samples4", "cull", kTurnedAcross, culled(CullMode::front, FrontFace::clockwise, 4),
+                families::turned_across, Viewport{0, 0, 32, 32}},
+      Generator{"cull_beside_clipped", "cull", kTurnedBeside, culled(CullMode::back, FrontFace::clockwise),
+                families::turned_beside_across, Viewport{0, 0, 32, 32}},
+      Generator{"cull_beside_clipped_samples4", "cull", kTurnedBeside,
+                culled(CullMode::front, FrontFace::counter_clockwise, 4), families::turned_beside_across,
+                Viewport{-0.7F, 33.1F, 34.3F, -34.7F}},
       Generator{"clip_behind",
                 "clip",
                 "triangles in clip space inside the view volume, and mirrored through the eye",

@@ -101,6 +101,18 @@ void far_corner(const Lattice& lattice, Random& random, Scene& scene) {
   append(lattice, random, a, b, c, scene);
 }
 
+// Ending within 16 px, of at most 128 px, and most of them of more than 64: an area of 8,192 square pixels is about the
+// middle.
+void near_corner(const Lattice& lattice, Random& random, Scene& scene) {
+  const std::int64_t pixel = lattice.pixel();
+  const auto far = [&] { return -random.between(70 * pixel, 114 * pixel); };
+  const auto near = [&] { return random.between(1, 16 * pixel); };
+  const LatticePoint beside{near(), far()};
+  const LatticePoint below{far(), near()};
+  const LatticePoint corner = lattice.to_centre({near(), near()});
+  append(lattice, random, random.one_in(4) ? LatticePoint{far(), far()} : beside, below, corner, scene);
+}
+
 void tiny(const Lattice& lattice, Random& random, Scene& scene) {
   const LatticePoint middle =
       random.one_in(4) ? lattice.anywhere(random, 0) : lattice.to_centre(lattice.anywhere(random, 0));

@@ -130,16 +130,24 @@ class Projection {
         y_(AxisTransform::of(viewport.y, viewport.height)),
         multisampled_(setting.samples() > 1) {}
 
-  std::optional<Position> operator()(const ClipVertex& vertex) const {
-    const MultiplyAdd how = vertex.original ? model_.multiply_add : MultiplyAdd::separate;
+  Position before_snap(const ClipVertex& vertex) const {
     const float inverse_w = 1.0F / vertex.at.w;
-    const auto x = transformed(model_, x_, how, multisampled_, vertex.at.x, inverse_w);
-    const auto y = transformed(model_, y_, how, multisampled_, vertex.at.y, inverse_w);
+    return {in_window(x_, how(vertex), vertex.at.x, inverse_w), in_window(y_, how(vertex), vertex.at.y, inverse_w)};
+  }
+
+  std::optional<Position> operator()(const ClipVertex& vertex) const {
+    const float inverse_w = 1.0F / vertex.at.w;
+    const auto x = transformed(model_, x_, how(vertex), multisampled_, vertex.at.x, inverse_w);
+    const auto y = transformed(model_, y_, how(vertex), multisampled_, vertex.at.y, inverse_w);
     if (!x || !y) return std::nullopt;
     return Position{*x, *y};
   }
 
  private:
+  MultiplyAdd how(const ClipVertex& vertex) const {
+    return vertex.original ? model_.multiply_add : MultiplyAdd::separate;
+  }
+
   const TransformModel& model_;
   AxisTransform x_;
   AxisTransform y_;
@@ -168,28 +176,45 @@ Turn turn_in_binary32(const std::array<Position, 3>& v, const ClipTriangle& tria
   return counter_clockwise ? Turn::counter_clockwise : Turn::clockwise;
 }
 
-// The polygon's vertices on the grid.
+// How llvmpipe's draw module takes a triangle to be wound.
+Turn turn_before_snap(const Triangle& t) {
+  const float ex = t[0].x - t[2].x;
+  const float ey = t[0].y - t[2].y;
+  const float fx = t[1].x - t[2].x;
+  const float fy = t[1].y - t[2].y;
+  const float p = ex * fy;
+  const float q = ey * fx;
+  const float area = p - q;
+  return area > 0 ? Turn::clockwise : area < 0 ? Turn::counter_clockwise : Turn::none;
+}
+
+// The polygon's vertices on the grid, and where the snap took them from.
 struct Outline {
   std::array<Position, kMaxVertices> vertices;
+  std::array<Position, kMaxVertices> before_snap;
   std::size_t size = 0;
 };
 
-bool append_fan(const TransformModel& model, const Outline& outline, std::vector<Triangle>& out) {
+bool append_fan(const TransformModel& model, const Outline& outline, std::vector<WindowTriangle>& out) {
   const std::size_t before = out.size();
   for (std::size_t i = 2; i < outline.size; ++i) {
-    const Triangle part{outline.vertices[0], outline.vertices[i - 1], outline.vertices[i]};
+    const auto part_of = [i](const auto& vertices) { return Triangle{vertices[0], vertices[i - 1], vertices[i]}; };
+    const Triangle part = part_of(outline.vertices);
     if (!within(model.max_extent, part)) {
       out.resize(before);
       return false;
     }
-    if (turn_of(part) != Turn::none) out.push_back(part);
+    if (turn_of(part) != Turn::none) out.push_back({part, turn_before_snap(part_of(outline.before_snap))});
   }
   return true;
 }
 
+float shrink_of(const TransformModel& model, const Setting& setting) {
+  return setting.samples() > 1 ? model.multisample_shrink : model.shrink;
+}
+
 // What is inside all planes; empty if nothing is. Nothing if rounding made too many vertices.
-std::optional<Polygon> clipped(const TransformModel& model, bool multisampled, const ClipTriangle& triangle) {
-  const float shrink = multisampled ? model.multisample_shrink : model.shrink;
+std::optional<Polygon> clipped(const TransformModel& model, float shrink, const ClipTriangle& triangle) {
   unsigned any = 0;
   unsigned all = ~0U;
   Polygon polygon;
@@ -219,17 +244,22 @@ Turn turn_of(const Triangle& triangle) {
   return area > 0 ? Turn::clockwise : area < 0 ? Turn::counter_clockwise : Turn::none;
 }
 
+bool leaves_view_volume(const TransformModel& model, const ClipTriangle& triangle) {
+  return std::ranges::any_of(triangle, [&](const ClipPosition& p) { return outcode(model, 1, p) != 0; });
+}
+
 std::optional<Turn> append_window_triangles(const TransformModel& model, const Setting& setting,
                                             const Viewport& viewport, const ClipTriangle& triangle,
-                                            std::vector<Triangle>& out) {
+                                            std::vector<WindowTriangle>& out) {
   if (!within_reach(triangle)) return std::nullopt;
-  const auto polygon = clipped(model, setting.samples() > 1, triangle);
+  const auto polygon = clipped(model, shrink_of(model, setting), triangle);
   if (!polygon) return std::nullopt;
   const Projection project(model, setting, viewport);
   Outline outline;
   for (std::size_t i = 0; i < polygon->size; ++i) {
     const auto at = project(polygon->vertices[i]);
     if (!at) return std::nullopt;
+    outline.before_snap[outline.size] = project.before_snap(polygon->vertices[i]);
     outline.vertices[outline.size++] = *at;
   }
   Turn turn = Turn::none;

@@ -22,6 +22,17 @@ enum class Turn { counter_clockwise = -1, none = 0, clockwise = 1 };
 /// By exact arithmetic; the vertices are grid points of at most 24 bits per coordinate.
 Turn turn_of(const Triangle& triangle);
 
+/// Whether a vertex lies outside the view volume, guard bands or not.
+bool leaves_view_volume(const TransformModel& model, const ClipTriangle& triangle);
+
+/// What clipping left of a triangle, or a part of that.
+struct WindowTriangle {
+  Triangle triangle;                   ///< snapped
+  Turn turn_before_snap = Turn::none;  ///< in binary32
+
+  bool operator==(const WindowTriangle&) const = default;
+};
+
 /// Appends the window triangles of `triangle` to `out`, all vertices on the grid of model.rules: the driver covers what
 /// model.fill makes of their coverage. Nothing is appended for a triangle that clipping drops. Returns how the driver
 /// takes the whole to be wound if model.winding decides that before clipping, and Turn::none otherwise. Nothing, and
@@ -30,6 +41,6 @@ Turn turn_of(const Triangle& triangle);
 /// triangle larger than model.max_extent.
 std::optional<Turn> append_window_triangles(const TransformModel& model, const Setting& setting,
                                             const Viewport& viewport, const ClipTriangle& triangle,
-                                            std::vector<Triangle>& out);
+                                            std::vector<WindowTriangle>& out);
 
 }  // namespace edgecase::conformance

@@ -16,6 +16,8 @@ constexpr int kSubpixelBits = 8;
 constexpr std::int64_t kPixel = std::int64_t{1} << kSubpixelBits;
 /// The largest extent of triangles that are drawn in 32 bits from the start, in pixels.
 constexpr std::int64_t kMostShort = 128;
+/// Within so many pixels those with four edges are drawn at once.
+constexpr int kBlock = 16;
 
 struct Point {
   std::int64_t x = 0;
@@ -107,6 +109,34 @@ std::vector<Edge> edges_of(const Setting& setting, const Points& p, bool clockwi
   return edges;
 }
 
+/// Both extents at once, from the first pixel of a 4x4 block on.
+std::int64_t extent(const Box& box) {
+  constexpr auto rounded = [](std::int64_t first) { return first & ~std::int64_t{3}; };
+  return (box.right - rounded(box.left)) | (box.bottom - rounded(box.top));
+}
+
+/// The most that an edge's value can come to at a sample of the triangle is twice its area, which is no more than its
+/// box. One that reaches 2^29 is wider and higher than a block, and then ends in the first one if it ends in any.
+bool may_wrap_by_four(const Setting& setting, const Box& box) {
+  if (setting.samples() > 1 || box.right >= kBlock || box.bottom >= kBlock) return false;
+  std::vector<Edge> sides;
+  append_scissor_edges(setting, box, scissor_of(setting), sides);
+  return sides.size() == 1;
+}
+
+void draw_by_four(const Setting& setting, const std::vector<Edge>& edges, MutableMaskView mask) {
+  const MaskLayout layout(setting);
+  for (int row = 0; row < std::min(kBlock, setting.target.height); ++row) {
+    for (int column = 0; column < std::min(kBlock, setting.target.width); ++column) {
+      const bool outside = std::ranges::any_of(edges, [&](const Edge& e) {
+        const std::int64_t c = e.at(column, row).c;
+        return c <= 0 || negative_in_32_bits(4 * (c - 1));
+      });
+      if (!outside) cover(mask, layout.bit(column, row, 0));
+    }
+  }
+}
+
 class Tile {
  public:
   Tile(const Setting& setting, MutableMaskView mask) : setting_(setting), layout_(setting), mask_(mask) {}
@@ -169,20 +199,23 @@ class Tile {
 }  // namespace
 
 bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle) {
-  // Of nearly all triangles this is all that is asked: whether an edge's value within the tile could come to 2^23 px^2.
+  // Of nearly all triangles this is all that is asked: whether an edge's value within the tile could come to 2^23 px^2,
+  // or at a sample of the first block to 2^13.
   const auto [least_x, greatest_x] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
   const auto [least_y, greatest_y] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
   constexpr float kMargin = kTile + 1;
-  if ((greatest_x - least_x + kMargin) * (greatest_y - least_y + kMargin) < 0x1p22F) return false;
+  const float width = greatest_x - least_x, height = greatest_y - least_y;
+  const bool huge = (width + kMargin) * (height + kMargin) >= 0x1p22F;
+  const bool by_four = std::max(greatest_x, greatest_y) < kBlock + 1 && (width + 1) * (height + 1) >= 0x1p13F;
+  if (!huge && !by_four) return false;
   const auto points = snapped_points(setting, triangle);
   if (!points) return false;
   const Box box = box_of(setting, *points);
   if (box.right < 0 || box.bottom < 0 || box.right >= kTile || box.bottom >= kTile) return false;
-  constexpr auto rounded = [](std::int64_t first) { return first & ~std::int64_t{3}; };
-  if (((box.right - rounded(box.left)) | (box.bottom - rounded(box.top))) <= kMostShort) return false;
+  if (extent(box) <= kMostShort) return by_four && may_wrap_by_four(setting, box);
   // The most that an edge's value can come to within the tile, in pixels.
-  const std::int64_t width = box.right - box.left + 1, height = box.bottom - box.top + 1;
-  return height * (width + kTile) + width * (height + kTile) >= std::int64_t{1} << (31 - kSubpixelBits);
+  const std::int64_t columns = box.right - box.left + 1, rows = box.bottom - box.top + 1;
+  return rows * (columns + kTile) + columns * (rows + kTile) >= std::int64_t{1} << (31 - kSubpixelBits);
 }
 
 void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
@@ -197,6 +230,7 @@ void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, Mut
   if (!meet(box, scissor)) return;
   std::vector<Edge> edges = edges_of(setting, *points, area > 0);
   append_scissor_edges(setting, box, scissor, edges);
+  if (extent(box) <= kMostShort) return draw_by_four(setting, edges, mask);
   Tile(setting, mask).draw(edges, 0, 0, kTile);
 }
 

@@ -69,6 +69,7 @@ constexpr TransformModel kLavapipe{
     .interpolation = Interpolation::from_nearer_end,
     .winding = Winding::exact,
     .fill = Fill::each,
+    .also_culls = 1365,  // what its draw module has at once: 4,095 vertices
     .viewport_scissor = true,
     .loose_multisample_scissor = true,
 };
@@ -103,6 +104,7 @@ constexpr TransformModel kSwiftshader{
     .interpolation = Interpolation::crosswise,
     .winding = Winding::binary32_before_clipping,
     .fill = Fill::outline,
+    .also_culls = 0,
     .viewport_scissor = false,
     .loose_multisample_scissor = false,
 };
@@ -127,17 +129,21 @@ const TransformModel* find_transform_model(std::string_view subject, std::string
   return nullptr;
 }
 
+float in_window(const AxisTransform& axis, MultiplyAdd how, float clip, float inverse_w) {
+  return multiply_add(how, clip * inverse_w, axis.half, axis.centre);
+}
+
 std::optional<float> transformed(const TransformModel& model, const AxisTransform& axis, MultiplyAdd how,
                                  bool multisampled, float clip, float inverse_w) {
   const HalfPixelShift shift = shift_of(model, multisampled);
-  const float ndc = clip * inverse_w;
   if (shift == HalfPixelShift::within_viewport) {
+    const float ndc = clip * inverse_w;
     const float scale = grid_scale(model);
     const float half = axis.half * scale;
     const float centre = axis.centre * scale - scale / 2;
     return on_grid(model, shift, multiply_add(how, ndc, half, centre));
   }
-  return window_on_grid(model, shift, multiply_add(how, ndc, axis.half, axis.centre));
+  return window_on_grid(model, shift, in_window(axis, how, clip, inverse_w));
 }
 
 std::optional<Position> snapped(const TransformModel& model, const Setting& setting, const Position& position) {

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -63,6 +65,9 @@ enum class Fill {
   outline,
 };
 
+/// TransformModel::also_culls for all triangles of a scene together.
+inline constexpr std::size_t kWholeDraw = std::numeric_limits<std::size_t>::max();
+
 struct TransformModel {
   /// Of whom it is known.
   std::string_view name;
@@ -82,6 +87,9 @@ struct TransformModel {
   Interpolation interpolation = Interpolation::from_nearer_end;
   Winding winding = Winding::exact;
   Fill fill = Fill::each;
+  /// Where culling is asked for, triangles are culled a second time, by their binary32 area before the snap, if one of
+  /// them is outside a plane: so many together, counted from the first of the draw. 1: each by itself; 0: none are.
+  std::size_t also_culls = 0;
   /// Pixels are drawn only from (int)(low + 0.499) to (int)(high - 0.501), low and high being the viewport's ends.
   bool viewport_scissor = false;
   /// The longest extent of a triangle in x or y, in pixels, for which the coverage is known to be exact.
@@ -118,6 +126,9 @@ struct AxisTransform {
     return {half, origin + half};
   }
 };
+
+/// Where the vertex lies in the window, in px, before any snap.
+float in_window(const AxisTransform& axis, MultiplyAdd multiply_add, float clip, float inverse_w);
 
 /// Where the vertex is snapped to, as a multiple of 2^-bits px, when its homogeneous coordinate is `clip` and
 /// `inverse_w` is 1 / w rounded. `multiply_add` is given apart because vertices from clipping differ in it. Nothing if

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include "conformance/models/clip_model.h"
 
@@ -9,14 +10,14 @@ namespace edgecase::conformance {
 namespace {
 
 std::optional<Turn> append_snapped(const TransformModel& model, const Setting& setting, const Triangle& triangle,
-                                   std::vector<Triangle>& out) {
+                                   std::vector<WindowTriangle>& out) {
   Triangle result;
   for (std::size_t v = 0; v < 3; ++v) {
     const auto at = snapped(model, setting, triangle[v]);
     if (!at) return std::nullopt;
     result[v] = *at;
   }
-  out.push_back(result);
+  out.push_back({result});
   return Turn::none;
 }
 
@@ -26,6 +27,28 @@ bool culled(const Setting& setting, Turn turn) {
   // A triangle without area, which can only be one that covers something after all, faces front.
   const bool faces_front = turn == front || turn == Turn::none;
   return faces_front == (setting.cull == CullMode::front);
+}
+
+// Of each triangle of the scene, whether llvmpipe's second culling concerns it.
+std::vector<bool> culled_twice(const TransformModel& model, const Scene& scene) {
+  const auto& triangles = scene.clip->triangles;
+  std::vector<bool> result(triangles.size());
+  if (scene.setting.cull == CullMode::none || model.also_culls == 0) return result;
+  for (std::size_t first = 0, count = 0; first < triangles.size(); first += count) {
+    count = std::min(model.also_culls, triangles.size() - first);
+    const auto together = std::span(triangles).subspan(first, count);
+    if (std::ranges::none_of(together,
+                             [&](const ClipTriangle& triangle) { return leaves_view_volume(model, triangle); })) {
+      continue;
+    }
+    std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(first), count, true);
+  }
+  return result;
+}
+
+// What has no area before the snap is taken to face back.
+bool culled_before_snap(const Setting& setting, Turn turn) {
+  return turn == Turn::none ? setting.cull == CullMode::back : culled(setting, turn);
 }
 
 // One word of a mask: the samples that the parts of triangle `i` add more often than they take them away.
@@ -57,7 +80,8 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene) {
     result.scene.setting.scissor = result.region.reach();
   }
   std::vector<Triangle>& out = result.scene.triangles;
-  std::vector<Triangle> parts;
+  std::vector<WindowTriangle> parts;
+  const std::vector<bool> twice = scene.clip ? culled_twice(model, scene) : std::vector<bool>();
   const std::size_t count = scene.clip ? scene.clip->triangles.size() : scene.triangles.size();
   for (std::size_t i = 0; i < count; ++i) {
     parts.clear();
@@ -65,9 +89,10 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene) {
         viewport != nullptr ? append_window_triangles(model, setting, *viewport, scene.clip->triangles[i], parts)
                             : append_snapped(model, setting, scene.triangles[i], parts);
     if (!turn) result.unpredicted.push_back(i);
-    for (const Triangle& part : parts) {
+    for (const auto& [part, turn_before_snap] : parts) {
       const bool as_whole = viewport != nullptr && model.winding == Winding::binary32_before_clipping;
       if (!result.region.meets(part) || culled(setting, as_whole ? *turn : turn_of(part))) continue;
+      if (viewport != nullptr && twice[i] && culled_before_snap(setting, turn_before_snap)) continue;
       out.push_back(part);
       const Turn adds = *turn == Turn::none ? Turn::clockwise : *turn;
       result.takes_away.push_back(as_whole && model.fill == Fill::outline && turn_of(part) != adds);

@@ -28,8 +28,8 @@ struct WindowScene {
   std::size_t parts_of(std::size_t triangle) const { return first[triangle + 1] - first[triangle]; }
 };
 
-/// Clips and projects `scene.clip`, or else snaps `scene.triangles` (which reach the driver unchanged, as through an
-/// enclosing viewport).
+/// Clips and projects `scene.clip`, drawn at once, or else snaps `scene.triangles` (which reach the driver unchanged,
+/// as through an enclosing viewport).
 WindowScene window_scene(const TransformModel& model, const Scene& scene);
 
 /// Some triangles of a scene for a person to see: each as the parts that clipping left of it, or, if it left none, as

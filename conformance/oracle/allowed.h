@@ -1,4 +1,5 @@
-// What a specification demands, where it leaves a choice: the exact answer for every choice at once, by the two methods.
+// What a specification demands, where it leaves a choice: the exact answer for every choice at once, by the two
+// methods.
 //
 // A triangle's vertices may be snapped in up to 2^6 ways: each coordinate between two grid points to one or either of
 // them, equal positions alike. A sample must be covered if it is for every choice, and must not be if it is for none;
@@ -19,9 +20,9 @@
 
 namespace edgecase::conformance::oracle {
 
-/// Of the samples in `asked`, those that have to be covered go to `must`, and those that are open to `may`; writes every
-/// word of both. `rules` give the grid, and the rounding if the set leaves none open; `rule_set` is one of kRuleSets.
-/// Coordinates as in oracle.h.
+/// Of the samples in `asked`, those that have to be covered go to `must`, and those that are open to `may`; writes
+/// every word of both. `rules` give the grid, and the rounding if the set leaves none open; `rule_set` is one of
+/// kRuleSets. Coordinates as in oracle.h.
 void allow_by_definition(const Setting& setting, const Rules& rules, const RuleSet& rule_set, const Triangle& triangle,
                          MaskView asked, MutableMaskView must, MutableMaskView may);
 

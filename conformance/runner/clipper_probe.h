@@ -24,6 +24,10 @@ ClipTriangle across(const std::vector<ClipPlane>& planes, Random& random);
 /// Across any number of planes, w of either sign.
 ClipTriangle across_any(Random& random);
 
+/// Slivers that the snap turns over, backs culled: inside the view volume, but for one in the middle; and all of them
+/// across one of its planes.
+ClipScenes culled_slivers(const Rules& rules, std::size_t count);
+
 /// Makes triangles until the models predict different masks for `wanted` of them, or `tries` is used up.
 ClipScenes tell_apart(const TransformModel& a, const TransformModel& b, const ClipScenes& arrangements,
                       const std::function<ClipTriangle(Random&)>& make, std::size_t wanted, std::size_t tries);

@@ -42,7 +42,7 @@ std::vector<TransformModel> clippers(const TransformModel& transform) {
        {&lavapipe_model(), &osmesa_llvmpipe_model(), &lavapipe_bgra8_model(), &swiftshader_model()}) {
     all.push_back(with_clipper(transform, *known));
   }
-  for (unsigned bits = 0; bits < 256; ++bits) {
+  for (unsigned bits = 0; bits < 512; ++bits) {
     const auto bit = [&](unsigned i) { return (bits >> i & 1U) != 0; };
     TransformModel model = with_clipper(transform, lavapipe_model());
     model.depth = bit(0) ? DepthRange::minus_w_to_w : DepthRange::zero_to_w;
@@ -53,8 +53,11 @@ std::vector<TransformModel> clippers(const TransformModel& transform) {
     model.loose_multisample_scissor = bit(5);
     model.winding = bit(6) ? Winding::binary32_before_clipping : Winding::exact;
     model.fill = bit(7) ? Fill::outline : Fill::each;
+    model.also_culls = bit(8) ? kWholeDraw : 0;
     // Triangles that are wound exactly never take samples away.
     if (model.winding == Winding::exact && model.fill == Fill::outline) continue;
+    // Two ways of being wound before the snap are one too many.
+    if (model.winding != Winding::exact && model.also_culls != 0) continue;
     all.push_back(model);
   }
   return all;
@@ -82,6 +85,7 @@ class ClipperSearch {
       }
     }
     if (!failure_ && candidates_.size() == 1) find_order();
+    if (!failure_ && candidates_.size() == 1) find_culled_together();
     if (!failure_ && candidates_.size() == 1) filter(plain(across_any));
     if (failure_) return tl::unexpected(*failure_);
     if (candidates_.empty()) {
@@ -178,6 +182,20 @@ class ClipperSearch {
     }
     if (ab_fits == ba_fits) return std::nullopt;
     return ab_fits ? a : b;
+  }
+
+  void find_culled_together() {
+    const TransformModel model = candidates_.front();
+    if (model.winding != Winding::exact) return;
+    candidates_.clear();
+    for (const std::size_t together : {lavapipe_model().also_culls, std::size_t{0}, std::size_t{1}, kWholeDraw}) {
+      candidates_.push_back(model);
+      candidates_.back().also_culls = together;
+    }
+    ClipScenes scenes = culled_slivers(arrangements_.front().rules, 3 * lavapipe_model().also_culls);
+    std::erase_if(scenes, [&](const Scene& scene) { return subject_.refusal(scene).has_value(); });
+    filter(scenes);
+    if (!candidates_.empty()) candidates_.resize(1);
   }
 
   Subject& subject_;

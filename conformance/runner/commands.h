@@ -64,6 +64,7 @@ struct StabilityOptions {
 struct ShowOptions {
   std::string case_name;
   std::string subject;
+  std::string rules;  ///< the name of a RuleSet; the case's own if empty
   std::string png;
 };
 

@@ -16,6 +16,12 @@ const char* const kFooter =
     "Exit status: 0 all as expected; 1 a mismatch, or a known deviation that is no longer there;\n"
     "2 bad input or usage; 3 a named subject is not there.";
 
+std::vector<std::string> rule_set_names() {
+  std::vector<std::string> names;
+  for (const RuleSet& set : kRuleSets) names.emplace_back(set.name);
+  return names;
+}
+
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Compare subjects with the rules on cases and generators");
   run->add_option("CASE", options.cases, "Case: a name, a pattern of names such as 'ties/*', or a file");
@@ -28,11 +34,9 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--category", options.categories, "Only what is of this category; may be repeated")
       ->type_name("C")
       ->allow_extra_args(false);
-  std::vector<std::string> sets;
-  for (const RuleSet& set : kRuleSets) sets.emplace_back(set.name);
   run->add_option("--rules", options.rules, "Judge by what that specification says, and leave open what it does")
       ->type_name("SET")
-      ->check(CLI::IsMember(sets))
+      ->check(CLI::IsMember(rule_set_names()))
       ->capture_default_str();
   run->add_option("--count", options.count, "Triangles of each generator, at least; scenes are whole")
       ->type_name("N")
@@ -110,6 +114,9 @@ void add_show(CLI::App& app, ShowOptions& options) {
   CLI::App* show = app.add_subcommand("show", "Show what a case covers, by the rules or as a subject draws it");
   show->add_option("CASE", options.case_name, "Case: a name or a file")->required();
   show->add_option("--subject", options.subject, "Show this rasterizer's masks beside the rules")->type_name("S");
+  show->add_option("--rules", options.rules, "Show what that specification demands, and leaves open")
+      ->type_name("SET")
+      ->check(CLI::IsMember(rule_set_names()));
   show->add_option("--png", options.png, "Write a picture")->type_name("FILE");
 }
 

@@ -43,8 +43,11 @@ Agreement compare_with_prediction(const TransformModel& model, const Scene& scen
   Agreement agreement;
   MaskBatch predicted;
   const std::size_t triangles = triangle_count(scene);
-  for (std::size_t first = 0; first < triangles && agreement.wrong == 0; first += kTrianglesAtOnce) {
-    const std::size_t count = std::min(kTrianglesAtOnce, triangles - first);
+  // A model that culls a triangle by what else is drawn needs the whole draw, or so many at once.
+  const bool together = scene.clip && scene.setting.cull != CullMode::none && model.also_culls > kTrianglesAtOnce;
+  const std::size_t at_once = together ? std::min(model.also_culls, triangles) : kTrianglesAtOnce;
+  for (std::size_t first = 0; first < triangles && agreement.wrong == 0; first += at_once) {
+    const std::size_t count = std::min(at_once, triangles - first);
     const WindowScene window = predict(model, part_of(scene, first, count), predicted);
     agreement.unpredicted += window.unpredicted.size();
     for (std::size_t i = 0; i < count; ++i) {

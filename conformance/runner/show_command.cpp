@@ -6,6 +6,7 @@
 
 #include "conformance/compare/picture.h"
 #include "conformance/compare/text_picture.h"
+#include "conformance/oracle/allowed.h"
 #include "conformance/oracle/oracle.h"
 #include "conformance/runner/case_library.h"
 #include "conformance/runner/commands.h"
@@ -19,66 +20,91 @@
 namespace edgecase::conformance {
 namespace {
 
-// What a subject covers of a case beside what it has to cover: as the rules say, or in clip space as the model of its
-// clipper predicts.
-tl::expected<Exhibit, Error> with_subject(const Case& file, const std::string& name) {
+// What the set demands of each triangle of a scene in window positions, and what it leaves open.
+void set_demands(const Scene& scene, const RuleSet& rule_set, Exhibit& exhibit) {
+  exhibit = exhibit_of(scene);
+  exhibit.must = by_the_rules(scene);
+  if (rule_set.exact()) return;
+  const MaskLayout layout(scene.setting);
+  const std::vector<std::uint64_t> asked(layout.words(), ~std::uint64_t{0});
+  exhibit.may.reset(layout, scene.triangles.size());
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    oracle::allow_by_definition(scene.setting, scene.rules, rule_set, scene.triangles[i], asked, exhibit.must[i],
+                                exhibit.may[i]);
+  }
+}
+
+// Behind a viewport transform that rounds nothing, with nothing to clip; nothing if that is not so.
+std::optional<Scene> in_window(const Scene& scene) {
+  auto triangles = exact_window_triangles(scene);
+  if (!triangles) return std::nullopt;
+  return Scene{scene.setting, scene.rules, std::move(*triangles), scene.meshes};
+}
+
+Comparison compared(const Exhibit& exhibit) {
+  Comparison comparison;
+  compare_masks(MaskLayout(exhibit.scene.setting), exhibit.must.data(), exhibit.may.data(), exhibit.observed.data(), 0,
+                comparison);
+  return comparison;
+}
+
+// What a subject covers of a case beside what it has to cover: as the set says, or under the exact one in clip space as
+// the model of its clipper predicts.
+tl::expected<Exhibit, Error> with_subject(const Case& file, const RuleSet& rule_set, const std::string& name) {
   auto subject = make_subject(name);
   if (!subject) return tl::unexpected(subject.error());
   const SubjectInfo& info = (*subject)->info();
   const auto model =
       SubjectModel::find(**subject, file.scene.clip.has_value()).value_or(SubjectModel::declared(**subject));
-  const auto scene = scene_for(file, info, model.rules(file.scene.setting.samples()));
+  const auto scene = scene_for(file, info, model.rules(file.scene.setting.samples()), rule_set);
   auto reference = reference_for(name, &model);
   if (!reference) return tl::unexpected(reference.error());
-  const auto refusal = scene ? Judge(**subject, *reference, nullptr).refusal(*scene) : scene.error();
+  const auto refusal = scene ? Judge(**subject, *reference, nullptr).refusal(*scene, rule_set) : scene.error();
   if (refusal) {
     return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{} cannot draw {}: {}", name, file.name, *refusal)});
   }
-  MaskBatch must;
-  if (auto expected = reference->expect(*scene, 0, must); !expected) return tl::unexpected(expected.error());
   MaskBatch observed;
   if (auto drawn = (*subject)->draw(*scene, observed); !drawn) return tl::unexpected(drawn.error());
-  for (const std::size_t i : reference->unpredicted()) std::ranges::copy(observed[i], must[i].begin());
 
-  Comparison comparison;
-  compare_masks(MaskLayout(scene->setting), must.data(), {}, observed.data(), 0, comparison);
   Exhibit exhibit;
-  if (scene->clip) {
+  std::size_t unpredicted = 0;
+  if (!scene->clip || !rule_set.exact()) {
+    set_demands(in_window(*scene).value(), rule_set, exhibit);  // Judge::refusal has seen to it
+    exhibit.observed = std::move(observed);
+    exhibit.wrong = compared(exhibit).first;
+  } else {
+    MaskBatch must;
+    if (auto expected = reference->expect(*scene, 0, must); !expected) return tl::unexpected(expected.error());
+    unpredicted = reference->unpredicted().size();
+    for (const std::size_t i : reference->unpredicted()) std::ranges::copy(observed[i], must[i].begin());
     const ClippedView clipped = clipped_view(reference->window(), 0, triangle_count(*scene));
     exhibit = exhibit_of(clipped.scene);
     exhibit.must = clipped.masks(must);
     exhibit.observed = clipped.masks(observed);
-    if (comparison.first) comparison.first->triangle = clipped.bearers[comparison.first->triangle];
-  } else {
-    exhibit = exhibit_of(*scene);
-    exhibit.must = std::move(must);
-    exhibit.observed = std::move(observed);
+    exhibit.wrong = compared(exhibit).first;
   }
   exhibit.subject = info.device.empty() ? name : fmt::format("{} ({})", name, info.device);
   exhibit.title = fmt::format("{}: {}", name, file.name.empty() ? file.path : file.name);
-  if (const std::size_t unpredicted = reference->unpredicted().size(); unpredicted != 0) {
+  if (unpredicted != 0) {
     exhibit.title += fmt::format(" ({} beyond the reach of its clipper's model, shown as drawn)", unpredicted);
   }
-  exhibit.wrong = comparison.first;
-  if (const auto& wrong = comparison.first; wrong && !scene->clip) {
+  if (const auto& wrong = exhibit.wrong; wrong && !scene->clip) {
     exhibit.explanation = oracle::explain(scene->setting, scene->rules, scene->triangles[wrong->triangle], wrong->x,
                                           wrong->y, wrong->sample);
   }
   return exhibit;
 }
 
-tl::expected<Exhibit, Error> by_rules_alone(const Case& file) {
-  Scene scene = file.scene;
-  auto triangles = exact_window_triangles(scene);
-  if (!triangles) {
+tl::expected<Exhibit, Error> by_rules_alone(const Case& file, const RuleSet& rule_set) {
+  auto scene = in_window(file.scene);
+  if (!scene) {
     return tl::unexpected(
         Error{ErrorKind::bad_input,
               fmt::format("{}: what it covers depends on the clipper; --subject names one", file.path)});
   }
-  scene.triangles = std::move(*triangles);
-  scene.clip.reset();
-  Exhibit exhibit = exhibit_of(scene);
-  exhibit.must = by_the_rules(scene);
+  if (!rule_set.exact()) scene->rules = Rules{rule_set.subpixel_bits(scene->rules.subpixel_bits)};
+  Exhibit exhibit;
+  set_demands(*scene, rule_set, exhibit);
   exhibit.title = file.name.empty() ? file.path : file.name;
   return exhibit;
 }
@@ -94,8 +120,11 @@ int show_command(const DataFiles& data, const ShowOptions& options) {
   }
   const Case& file = cases->front();
 
-  const auto exhibit = options.subject.empty() ? by_rules_alone(file) : with_subject(file, options.subject);
+  const RuleSet& rule_set = options.rules.empty() ? *file.rule_set : *find_rule_set(options.rules);
+  auto exhibit =
+      options.subject.empty() ? by_rules_alone(file, rule_set) : with_subject(file, rule_set, options.subject);
   if (!exhibit) return fail(exhibit.error());
+  if (!rule_set.exact()) exhibit->title += fmt::format(", by what {} demands", rule_set.name);
   if (!options.png.empty()) {
     if (auto written = write_png(*exhibit, options.png); !written) return fail(written.error());
     return kAsExpected;

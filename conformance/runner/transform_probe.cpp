@@ -215,7 +215,7 @@ class Prober {
     if (scene.clip) {
       in_window_.clear();
       append_window_triangles(candidate, setting_, scene.clip->viewport, scene.clip->triangles.front(), in_window_);
-      return in_window_.empty() ? result : in_window_.front();
+      return in_window_.empty() ? result : in_window_.front().triangle;
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const auto at = snapped(candidate, setting_, scene.triangles.front()[i]);
@@ -247,7 +247,7 @@ class Prober {
   Setting setting_;
   TransformProbe probe_;
   std::size_t groups_ = 1;
-  std::vector<Triangle> in_window_;
+  std::vector<WindowTriangle> in_window_;
 };
 
 }  // namespace

@@ -30,7 +30,8 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// The candidate at the least edit distance from `name`, the first of several; nothing if even that one differs in more
 /// than a third of its characters, because a guess that far off would mislead.
-inline std::optional<std::string_view> nearest_name(std::string_view name, std::span<const std::string_view> candidates) {
+inline std::optional<std::string_view> nearest_name(std::string_view name,
+                                                    std::span<const std::string_view> candidates) {
   constexpr std::size_t kLongestGuessed = 256;
   if (name.size() > kLongestGuessed) return std::nullopt;
   std::optional<std::string_view> best;

@@ -80,7 +80,8 @@ struct Scene {
   std::vector<Mesh> meshes;
   /// If present, `triangles` is what it assembles to, in order, and a subject is fed the assembly.
   std::optional<Assembly> assembly{};
-  /// If present, `triangles` is empty, and `meshes` are ranges of these, which projection leaves watertight: a subject is fed this, and what it covers depends on its clipper.
+  /// If present, `triangles` is empty, and `meshes` are ranges of these, which projection leaves watertight: a subject
+  /// is fed this, and what it covers depends on its clipper.
   std::optional<ClipGeometry> clip{};
 };
 

@@ -52,8 +52,9 @@ struct Rules {
   int subpixel_bits = 8;
   SnapRounding rounding = SnapRounding::nearest_even;
   /// Whether half a pixel is subtracted from the coordinate in binary32 before it is scaled and rounded, and added back
-  /// afterwards, as rasterizers do that put pixel centres on whole numbers. The subtraction itself may round: a coordinate
-  /// just past a tie then becomes the tie. D3D11's tolerance of 0.6 units allows that; it shows within 2^-24 px of a tie.
+  /// afterwards, as rasterizers do that put pixel centres on whole numbers. The subtraction itself may round: a
+  /// coordinate just past a tie then becomes the tie. D3D11's tolerance of 0.6 units allows that; it shows within 2^-24
+  /// px of a tie.
   bool half_pixel_first = false;
   friend bool operator==(const Rules&, const Rules&) = default;
 };

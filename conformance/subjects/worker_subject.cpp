@@ -18,6 +18,10 @@ constexpr std::size_t kPartBytes = std::size_t{2} << 20;
 // Far above what a software rasterizer needs for a sample on a loaded machine.
 constexpr double kMicrosecondsPerSample = 2;
 
+// An assembly's triangles share vertices, and are numbered through. What llvmpipe culls depends on what else it clips
+// in the same draw.
+bool in_one_draw(const Scene& scene) { return scene.assembly || (scene.clip && scene.setting.cull != CullMode::none); }
+
 std::size_t aligned(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 }  // namespace
@@ -60,9 +64,9 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
       std::ranges::count(scene.assembly->indices, kRestartIndex) != 0) {
     return "a restart index in a list of triangles";
   }
-  if (scene.assembly && mask_bytes * scene.triangles.size() > max_mask_bytes_) {
-    return fmt::format("{} triangles in one assembly: their masks exceed its largest buffer, {} bytes",
-                       scene.triangles.size(), max_mask_bytes_);
+  if (in_one_draw(scene) && mask_bytes * triangle_count(scene) > max_mask_bytes_) {
+    return fmt::format("{} triangles in one draw: their masks exceed its largest buffer, {} bytes",
+                       triangle_count(scene), max_mask_bytes_);
   }
   if (viewport_.carries(magnitudes(scene.triangles))) return std::nullopt;
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
@@ -78,8 +82,7 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
 }
 
 std::size_t WorkerSubject::most_at_once(const Scene& scene) const {
-  // An assembly cannot be split: its triangles share vertices, and are numbered through.
-  if (scene.assembly) return scene.triangles.size();
+  if (in_one_draw(scene)) return triangle_count(scene);
   const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
   return std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
 }

@@ -145,9 +145,11 @@ TEST_F(CommandLine, ListsAndShows) {
   EXPECT_THAT(shown.out, AllOf(HasSubstr("A test."), HasSubstr("#")));
   EXPECT_THAT(run("show clip/depth_at_both_ends --subject lavapipe").out, HasSubstr("###."));
   EXPECT_EQ(run("show clip/depth_at_both_ends --subject osmesa-softpipe").status, 2);
-  EXPECT_THAT(run("show clip/one_w_near_0 --subject lavapipe").out, HasSubstr("beyond the reach of its clipper's model"));
+  EXPECT_THAT(run("show clip/one_w_near_0 --subject lavapipe").out,
+              HasSubstr("beyond the reach of its clipper's model"));
   EXPECT_THAT(run("show clip/behind_the_eye --subject fault:behind-drawn").out, HasSubstr("\n> 0 xxx.\n"));
   expect_one_line(run("show clip/mesh_across_the_near_plane"), 2, "--subject");
+  EXPECT_THAT(run("show fill_rule/flat_top --rules webgpu").out, HasSubstr("\n  0 ------\n"));
   expect_one_line(run("show fan"), 2, "'fan/*'");
   EXPECT_EQ(run("run --subject edgecase fill_rule/flat_top").status, 0);  // an option takes one value
   EXPECT_EQ(run("show clip/mesh_across_the_near_plane --subject lavapipe --png clipped.png").status, 0);

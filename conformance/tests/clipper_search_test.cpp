@@ -18,7 +18,8 @@ namespace {
 bool same_clipper(const TransformModel& a, const TransformModel& b) {
   return a.depth == b.depth && a.shrink == b.shrink && a.multisample_shrink == b.multisample_shrink &&
          a.planes == b.planes && a.interpolation == b.interpolation && a.viewport_scissor == b.viewport_scissor &&
-         a.loose_multisample_scissor == b.loose_multisample_scissor && a.winding == b.winding && a.fill == b.fill;
+         a.loose_multisample_scissor == b.loose_multisample_scissor && a.winding == b.winding && a.fill == b.fill &&
+         a.also_culls == b.also_culls;
 }
 
 std::string described(const TransformModel& m) {
@@ -28,7 +29,7 @@ std::string described(const TransformModel& m) {
   for (const ClipPlane plane : m.planes) text << ' ' << static_cast<int>(plane);
   text << ", interpolation " << static_cast<int>(m.interpolation) << ", scissors " << m.viewport_scissor << ' '
        << m.loose_multisample_scissor << ", winding " << static_cast<int>(m.winding) << ", fill "
-       << static_cast<int>(m.fill);
+       << static_cast<int>(m.fill) << ", also culls " << m.also_culls << " together";
   return text.str();
 }
 
@@ -59,6 +60,7 @@ TEST(ClipperSearch, FindsSomeThatNobodyHas) {
     m.multisample_shrink = 0.5F;
     m.interpolation = Interpolation::crosswise;
   });
+  expect_found_changed(lavapipe_model(), "culls once", [](TransformModel& m) { m.also_culls = 0; });
   expect_found_changed(swiftshader_model(), "order, depth", [](TransformModel& m) {
     m.planes = {top, far, left, near, bottom, right};
     m.depth = DepthRange::minus_w_to_w;
@@ -76,6 +78,11 @@ TEST(LongClipperSearch, FindsOnesThatNobodyHas) {
     expect_changed("viewport scissor", [](TransformModel& m) { m.viewport_scissor = !m.viewport_scissor; });
     expect_changed("loose scissor",
                    [](TransformModel& m) { m.loose_multisample_scissor = !m.loose_multisample_scissor; });
+    if (base->winding == Winding::exact) {
+      expect_changed("culls once", [](TransformModel& m) { m.also_culls = 0; });
+      expect_changed("culls each by itself again", [](TransformModel& m) { m.also_culls = 1; });
+      expect_changed("culls all again", [](TransformModel& m) { m.also_culls = kWholeDraw; });
+    }
     expect_changed("order", [](TransformModel& m) { m.planes = {top, far, left, near, bottom, right}; });
     expect_changed("reverse order", [](TransformModel& m) { std::ranges::reverse(m.planes); });
     expect_changed("interpolation", [](TransformModel& m) {
@@ -83,8 +90,6 @@ TEST(LongClipperSearch, FindsOnesThatNobodyHas) {
           m.interpolation == Interpolation::crosswise ? Interpolation::from_nearer_end : Interpolation::crosswise;
     });
   }
-  // llvmpipe's with the other winding would cull other triangles only if they are so thin that nothing tells the two
-  // apart.
   expect_found_changed(swiftshader_model(), "winding", [](TransformModel& m) {
     m.winding = Winding::exact;
     m.fill = Fill::each;

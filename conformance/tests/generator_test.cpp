@@ -50,6 +50,8 @@ TEST(Generators, MakeTheSameTrianglesEverywhere) {
       {"random", 11013290841486168273u},
       {"ties", 11294867062831296997u},
       {"range", 500351732551055826u},
+      {"near_corner_scissor", 16134352526467627886u},
+      {"near_corner_small", 13981501639455335586u},
       {"far_corner", 16813038179702320542u},
       {"far_corner_wide", 6943497341343357526u},
       {"far_corner_scissor", 15366741500458511254u},
@@ -165,6 +167,10 @@ TEST(ClipGenerators, MakeTheSameTrianglesEverywhere) {
       {"clip_far_scissor4", 14339109982889483292u},
       {"viewport_flipped_ties", 17890379726840434341u},
       {"cull_turned", 11120628764691582629u},
+      {"cull_across", 7957413565275903017u},
+      {"cull_across_samples4", 12086737043603791781u},
+      {"cull_beside_clipped", 11547457233048517285u},
+      {"cull_beside_clipped_samples4", 7574131210768435998u},
       {"clip_behind", 953389554067082917u},
       {"clip_fans", 10093439197303799405u},
       {"clip_grids", 3696774210683208045u},
@@ -204,7 +210,10 @@ TEST(ClipGenerators, StayInsideOrCross) {
   for (const Generator& generator : clip_generators()) {
     const Scene scene = scenes(generator, 1, 0, 400);
     const auto crossing = std::ranges::count_if(scene.clip->triangles, outside);
-    if (generator.category == "viewport" || generator.category == "cull") {
+    if (generator.name.starts_with("cull_beside_clipped")) {
+      const auto of_many = std::ranges::count_if(scenes(generator, 1, 0, 20'000).clip->triangles, outside);
+      EXPECT_TRUE(of_many > 3 && of_many < 20) << generator.name << ": " << of_many;
+    } else if (generator.category == "viewport" || generator.name == "cull_turned") {
       EXPECT_EQ(crossing, 0) << generator.name;
     } else {
       EXPECT_GT(crossing, generator.name == "clip_behind" ? 150 : 250) << generator.name;

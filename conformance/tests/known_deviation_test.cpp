@@ -103,8 +103,8 @@ TEST_P(JudgedBothWays, IsKnownOnlyAsPredicted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, JudgedBothWays,
-                         testing::Values("far_corner", "far_corner_samples4", "far_rectangle", "clip_far",
-                                         "clip_far_samples4"));
+                         testing::Values("far_corner", "far_corner_samples4", "near_corner_scissor",
+                                         "near_corner_small", "far_rectangle", "clip_far", "clip_far_samples4"));
 
 // Its triangles are as predicted, and so is what that does to the mesh.
 TEST(KnownDeviation, ExplainsTornMeshes) {

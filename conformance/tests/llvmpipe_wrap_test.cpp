@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,10 +26,37 @@ std::string text(const Triangle& t) {
   return result.str();
 }
 
+// c - 1 is an edge's value, less one if the edge is neither a top nor a left one; 2^13 square pixels are 2^29 in square
+// subpixels, which here run through the target, a little further with each triangle.
+TEST_P(LlvmpipeWrap, IsPredictedAtItsThreshold) {
+  const auto subject = make_subject(GetParam());
+  ASSERT_TRUE(subject) << subject.error().message;
+  Scene scene;
+  scene.setting.target = {8, 8};
+  constexpr float kStep = 7 * 0x1p-8F;
+  for (int i = 0; i < 4000; ++i) {
+    const float x = -79 - static_cast<float>(i % 200) * kStep, y = -93 - static_cast<float>(i / 200) * kStep;
+    scene.triangles.push_back({{{x, 10}, {6, y}, {6, 10}}});
+  }
+  MaskBatch masks;
+  ASSERT_TRUE((*subject)->draw(scene, masks));
+  const MaskLayout layout(scene.setting);
+  std::vector<std::uint64_t> predicted(layout.words());
+  std::set<std::vector<std::uint64_t>> different;
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    ASSERT_TRUE(llvmpipe_may_wrap(scene.setting, scene.triangles[i]));
+    predict_llvmpipe_wrap(scene.setting, scene.triangles[i], predicted);
+    ASSERT_TRUE(std::ranges::equal(predicted, masks[i])) << text(scene.triangles[i]);
+    different.insert(predicted);
+  }
+  EXPECT_GT(different.size(), 5u);
+}
+
 TEST_P(LlvmpipeWrap, IsPredictedToTheLastSample) {
   const auto subject = make_subject(GetParam());
   ASSERT_TRUE(subject) << subject.error().message;
-  for (const char* name : {"far_corner", "far_corner_wide", "far_corner_scissor", "far_corner_samples4"}) {
+  for (const char* name : {"far_corner", "far_corner_wide", "far_corner_scissor", "far_corner_samples4",
+                           "near_corner_scissor", "near_corner_small"}) {
     const Generator& generator = *find_generator(name);
     Scene scene;
     scene.setting = generator.setting;

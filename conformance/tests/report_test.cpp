@@ -100,18 +100,19 @@ TEST(JsonReport, HasEveryKeyInTheDesignsOrder) {
   EXPECT_THAT(keys(root), ElementsAre("edgecase", "seed", "rules", "results", "categories", "totals"));
   ASSERT_EQ(root["results"].size(), 4u);
   for (const auto& result : root["results"]) {
-    EXPECT_THAT(keys(result), ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles",
-                                          "samples_compared", "missing", "unexpected", "doubled", "known_triangles",
-                                          "unpredicted", "may", "cracks", "first", "reason", "seconds", "subject_seconds"));
+    EXPECT_THAT(keys(result),
+                ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles", "samples_compared",
+                            "missing", "unexpected", "doubled", "known_triangles", "unpredicted", "may", "cracks",
+                            "first", "reason", "seconds", "subject_seconds"));
   }
   EXPECT_THAT(keys(root["totals"]),
               ElementsAre("pass", "fail", "known", "skip", "triangles", "samples_compared", "missing", "unexpected",
                           "doubled", "known_triangles", "unpredicted", "may", "cracks", "seconds"));
   ASSERT_EQ(root["categories"].size(), 3u);
   for (const auto& category : root["categories"]) {
-    EXPECT_THAT(keys(category),
-                ElementsAre("subject", "category", "pass", "fail", "known", "skip", "triangles", "samples_compared",
-                            "missing", "unexpected", "doubled", "known_triangles", "unpredicted", "may", "cracks", "causes"));
+    EXPECT_THAT(keys(category), ElementsAre("subject", "category", "pass", "fail", "known", "skip", "triangles",
+                                            "samples_compared", "missing", "unexpected", "doubled", "known_triangles",
+                                            "unpredicted", "may", "cracks", "causes"));
   }
   EXPECT_THAT(keys(root["results"][1]["first"]),
               ElementsAre("kind", "triangle", "x", "y", "sample", "text", "vertices", "command"));

@@ -73,8 +73,10 @@ TEST(TransformModel, IsFoundByNameAndByDevice) {
 }
 
 std::vector<Triangle> windows(const TransformModel& model, const ClipTriangle& triangle) {
+  std::vector<WindowTriangle> parts;
+  EXPECT_TRUE(append_window_triangles(model, setting_of(8, 8), {0, 0, 8, 8}, triangle, parts));
   std::vector<Triangle> out;
-  EXPECT_TRUE(append_window_triangles(model, setting_of(8, 8), {0, 0, 8, 8}, triangle, out));
+  for (const WindowTriangle& part : parts) out.push_back(part.triangle);
   return out;
 }
 
@@ -102,7 +104,7 @@ TEST(ClipModel, TheNearPlaneLiesWhereTheInterfaceHasIt) {
 }
 
 TEST(ClipModel, SaysWhereItDoesNotReach) {
-  std::vector<Triangle> out;
+  std::vector<WindowTriangle> out;
   const auto predicted = [&](const ClipTriangle& triangle) {
     return append_window_triangles(lavapipe_model(), setting_of(8, 8), {0, 0, 8, 8}, triangle, out).has_value();
   };
@@ -190,6 +192,32 @@ TEST(WindowScene, CullsByTheSnappedVertices) {
   EXPECT_THAT(window_scene(lavapipe_model(), scene).first, ElementsAre(0, 0, 1));
   scene.setting.cull = CullMode::front;
   EXPECT_THAT(window_scene(lavapipe_model(), scene).first, ElementsAre(0, 1, 1));
+}
+
+// The third vertex, between the others, lies above the line between them: 5/8 of a subpixel down where the line is at
+// 7/8. Snapped, it is at 1 and the line at 1/2.
+TEST(WindowScene, CullsByTheVerticesBeforeTheSnapBesideWhatIsClipped) {
+  constexpr float kSubpixel = 0x1p-8F;
+  const auto at = [](float x, float y) { return ClipPosition{(x - 4) / 4, (y - 4) / 4, 0, 1}; };
+  const ClipTriangle turned{
+      {at(1, 1 + 0.375F * kSubpixel), at(3, 1 + 1.375F * kSubpixel), at(2, 1 + 0.625F * kSubpixel)}};
+  const ClipTriangle beyond{{at(4, 4), at(4, 9), at(3, 9)}};
+  Scene scene;
+  scene.setting = setting_of(8, 8);
+  scene.setting.cull = CullMode::back;
+  scene.clip = ClipGeometry{{0, 0, 8, 8}, {turned, turned, turned}};
+  TransformModel model = lavapipe_model();
+  model.also_culls = 2;
+  EXPECT_THAT(window_scene(model, scene).first, ElementsAre(0, 1, 2, 3));
+  scene.clip->triangles.push_back(beyond);
+  EXPECT_THAT(window_scene(model, scene).first, ElementsAre(0, 1, 2, 2, 3)) << "the third is drawn with the fourth";
+  model.also_culls = kWholeDraw;
+  EXPECT_THAT(window_scene(model, scene).first, ElementsAre(0, 0, 0, 0, 1));
+  model.also_culls = 1;
+  EXPECT_THAT(window_scene(model, scene).first, ElementsAre(0, 1, 2, 3, 4));
+  scene.setting.cull = CullMode::none;
+  model.also_culls = kWholeDraw;
+  EXPECT_THAT(window_scene(model, scene).first, ElementsAre(0, 1, 2, 3, 4));
 }
 
 }  // namespace
