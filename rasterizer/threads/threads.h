@@ -9,8 +9,7 @@
 // Tiles are drawn in the order of falling work; towards the end, threads without a tile help with one that has much
 // left (agenda.h). What limits many threads:
 //   - before they start, a us for the plan; and if they sleep, 8 us for the call that wakes them and 25 to 40 until
-//   they
-//     are there. oneTBB lets them wait for another draw for 0.1 to 0.2 ms, within which they begin after one us;
+//     they are there. oneTBB lets them wait for a draw for 0.1 to 0.2 ms, within which they begin after one us;
 //   - at the end, one part of a tile, 1/32 of a thread's share: on average half of that is lost;
 //   - in total, the triangles on tiles' borders, which are drawn twice, and a mask for each tile and each helper.
 // `edgecase bench --scaling` plays these tasks, with the times they take on one thread, through the agenda for up to
