@@ -1,14 +1,14 @@
 #include "conformance/bench/scaling.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <thread>
 
+#include "conformance/bench/clock.h"
 #include "conformance/bench/contenders.h"
 #include "conformance/bench/progress.h"
+#include "conformance/bench/whole_draws.h"
 #include "conformance/bench/workloads.h"
 #include "rasterizer/threads/agenda.h"
 #include "rasterizer/threads/threads.h"
@@ -25,25 +25,17 @@ using rasterizer::TiledDraw;
 constexpr int kMostThreads = 64;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double now(clockid_t clock) {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
-}
-
-/// Keeps the least of what `act` takes.
+/// Keeps the least of what `act` takes: others run on this machine, too.
 template <class Act>
 void time_into(double& least, const Act& act, clockid_t clock = CLOCK_MONOTONIC) {
-  const double begin = now(clock);
-  act();
-  least = std::min(least, now(clock) - begin);
+  least = std::min(least, time_of(act, clock));
 }
 
 TaskCosts time_tasks(const rasterizer::FastRasterizer& fast, std::span<const FixedTriangle> triangles, const Plan& plan,
                      std::size_t repetitions, StripMask& mask) {
   const auto tiles = static_cast<std::size_t>(plan.grid.count());
   TiledDraw::Memory memory;
-  TiledDraw::Canvas canvas(0);
+  TiledDraw::Canvas canvas(1);  // one that is added to the mask in the end
   rasterizer::TileMask tile_mask;
   TaskCosts costs{kNever, {}, {}, std::vector<double>(tiles, kNever)};
   std::vector<double> clear(tiles, kNever);
@@ -73,27 +65,6 @@ TaskCosts time_tasks(const rasterizer::FastRasterizer& fast, std::span<const Fix
   return costs;
 }
 
-/// Whole draws by one thread and by all, in turn.
-struct Measured {
-  double one = kNever, one_cpu = kNever, all = kNever, all_cpu = kNever;
-};
-
-Measured time_draws_by(int threads, const rasterizer::FastRasterizer& fast, std::span<const FixedTriangle> triangles,
-                       std::size_t repetitions, StripMask& mask) {
-  rasterizer::ThreadedRasterizer threaded(fast, threads);
-  Measured least;
-  const auto time_draw = [&](double& wall, double& cpu, const auto& draw) {
-    mask.clear();
-    time_into(
-        cpu, [&] { time_into(wall, draw); }, CLOCK_PROCESS_CPUTIME_ID);
-  };
-  for (std::size_t i = 0; i < repetitions; ++i) {
-    time_draw(least.one, least.one_cpu, [&] { fast.cover_union(triangles, mask); });
-    if (threads > 1) time_draw(least.all, least.all_cpu, [&] { threaded.cover_union(triangles, mask); });
-  }
-  return least;
-}
-
 tl::expected<void, Error> measure_workload(std::string_view name, const Scene& scene, std::size_t repetitions,
                                            std::vector<ScalingPoint>& points) {
   const auto triangles = snap_all<rasterizer::Format16_8>(scene);
@@ -101,8 +72,13 @@ tl::expected<void, Error> measure_workload(std::string_view name, const Scene& s
   const rasterizer::FastRasterizer fast;
   const rasterizer::Target target = target_of(scene.setting);
   StripMask mask(target);
-  // The time of the thread, as what else runs would take its share of whole draws more than of short tasks.
-  const double one_thread = time_draws_by(1, fast, *triangles, repetitions, mask).one_cpu;
+  double one_thread = kNever;
+  for (std::size_t i = 0; i < repetitions; ++i) {
+    mask.clear();
+    // The time of the thread, as what else runs would take its share of whole draws more than of short tasks.
+    time_into(
+        one_thread, [&] { fast.cover_union(*triangles, mask); }, CLOCK_THREAD_CPUTIME_ID);
+  }
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
   for (int threads = 1; threads <= kMostThreads; threads *= 2) {
     const Plan plan = make_plan(*triangles, target, threads);
@@ -117,17 +93,17 @@ tl::expected<void, Error> measure_workload(std::string_view name, const Scene& s
     point.one_thread_ns = one_thread;
     if (plan.threads == 1) {
       point.tasks_ns = point.predicted_ns = one_thread;
+      point.predicted_speedup = point.predicted_asleep = 1;
     } else {
       const TaskCosts costs = time_tasks(fast, *triangles, plan, repetitions, mask);
-      const Schedule schedule = play(costs, plan, rasterizer::start_of_thread);
+      const Schedule schedule = play(costs, plan, rasterizer::start_awake);
       point.tasks_ns = schedule.tasks;
       point.predicted_ns = costs.plan + schedule.end;
+      point.predicted_speedup = one_thread / point.predicted_ns;
+      point.predicted_asleep = one_thread / (costs.plan + play(costs, plan, rasterizer::start_asleep).end);
     }
-    point.predicted_speedup = one_thread / point.predicted_ns;
     if (threads == 1 || threads > processors) continue;
-    const Measured measured = time_draws_by(threads, fast, *triangles, repetitions, mask);
-    point.measured_speedup = measured.one / measured.all;
-    point.measured_cpu = measured.all_cpu / measured.one_cpu;
+    point.measured = time_whole_draws(threads, fast, *triangles, target, repetitions);
   }
   return {};
 }
@@ -136,20 +112,33 @@ tl::expected<void, Error> measure_workload(std::string_view name, const Scene& s
 
 Schedule play(const TaskCosts& costs, const Plan& plan, double (*start)(int thread)) {
   rasterizer::Agenda agenda(plan.tile_work, plan.parts, plan.least_help);
+  // A single tile is drawn in place by the first thread, and the masks of the others are added up by all in the end.
+  const bool single = costs.parts.size() == 1;
+  if (single) agenda.begin();
   struct Thread {
     double time;
     int tile;
+    bool in_place;
+    bool worked = false;
   };
   std::vector<Thread> threads;
-  for (int i = 0; i < plan.threads; ++i) threads.push_back({start(i), -1});
+  for (int i = 0; i < plan.threads; ++i) threads.push_back({start(i), single && i == 0 ? 0 : -1, single && i == 0});
   std::vector<double> binned_at(costs.bins.size());
-  std::size_t next_bin = 0;
+  std::size_t next_bin = 0, apart = 0;
   Schedule schedule;
   const auto work = [&](Thread& thread, double cost) {
     thread.time += cost;
+    thread.worked = true;
     schedule.tasks += cost;
   };
-  const auto cost_of_tile = [&](int tile) { return tile < 0 ? 0 : costs.tiles[static_cast<std::size_t>(tile)]; };
+  const auto finish = [&](Thread& thread) {
+    if (thread.tile < 0 || thread.in_place) return;
+    if (single) {
+      ++apart;
+    } else {
+      work(thread, costs.tiles[static_cast<std::size_t>(thread.tile)]);
+    }
+  };
   while (!threads.empty()) {
     // Who is free first acts first.
     const auto first = std::ranges::min_element(threads, {}, &Thread::time);
@@ -161,7 +150,7 @@ Schedule play(const TaskCosts& costs, const Plan& plan, double (*start)(int thre
     }
     const auto part = agenda.next(thread.tile);
     const int tile = part ? part->tile : -1;
-    if (tile != thread.tile) work(thread, cost_of_tile(thread.tile));
+    if (tile != thread.tile) finish(thread);
     thread.tile = tile;
     if (part) {
       const std::size_t chunks = binned_at.size();
@@ -170,9 +159,15 @@ Schedule play(const TaskCosts& costs, const Plan& plan, double (*start)(int thre
       }
       work(thread, costs.parts[static_cast<std::size_t>(tile)][part->number]);
     } else {
-      schedule.end = std::max(schedule.end, thread.time);
+      // Who finds nothing left as it starts is waited for by nobody.
+      if (thread.worked) schedule.end = std::max(schedule.end, thread.time);
       threads.erase(first);
     }
+  }
+  if (apart > 0) {
+    const double added = static_cast<double>(apart) * costs.tiles.front();
+    schedule.tasks += added;
+    schedule.end += added / plan.threads;
   }
   return schedule;
 }

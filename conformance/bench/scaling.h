@@ -2,8 +2,17 @@
 //
 // The tasks of a drawing (rasterizer/threads/tiled_draw.h) are timed one after the other on one thread, and then played
 // through the very agenda that the threads follow, on as many of them as asked for. Beside that stands what is measured
-// where there are as many processors. Threads share no memory and no power in this model, and starting them takes what
-// start_of_thread() says.
+// where there are as many processors, and what threads reach there that share nothing but the machine.
+//
+// What the model leaves out:
+//   - cache lines that move between processors: a helper's mask is added up by all threads, so half of its lines, and
+//     as many of the target's, are in another one's cache; measured at 2 to 5 ns each, 10 us for a screen's mask of
+//     4,200 lines. It weighs on draws of a few hundred us; a mask shared by many threads moves more of it;
+//   - bandwidth that processors share, of the last-level cache and the memory: who draws into a large target alone may
+//     already use most of it;
+//   - clocks that fall as more processors work, and neighbours on the same machine: what `apart` shows;
+//   - how long it takes to start threads beyond the processors that there are: start_awake() and start_asleep() are
+//     measured for one and assumed for others.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +22,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "conformance/bench/whole_draws.h"
 #include "conformance/scene/error.h"
 #include "rasterizer/threads/plan.h"
 
@@ -23,7 +33,7 @@ struct TaskCosts {
   double plan = 0;                         ///< before threads start
   std::vector<double> bins;                ///< of each chunk; none if there is but one tile
   std::vector<std::vector<double>> parts;  ///< of each tile
-  std::vector<double> tiles;  ///< to clear and to add a mask of each tile, once for each thread that has it
+  std::vector<double> tiles;  ///< to clear and to add a mask of each tile, once for each thread that has one
 };
 
 struct Schedule {
@@ -46,13 +56,12 @@ struct ScalingPoint {
   double tasks_ns = 0;       ///< all tasks of these threads
   double predicted_ns = 0;
   double predicted_speedup = 0;
-  /// Of whole draws, where there are that many processors; and their CPU time on all threads, in that of one thread.
-  std::optional<double> measured_speedup{};
-  std::optional<double> measured_cpu{};
+  double predicted_asleep = 0;           ///< the speed-up, if the threads have to be woken
+  std::optional<WholeDraws> measured{};  ///< where there are that many processors
 };
 
 struct ScalingEffort {
-  std::size_t repetitions;  ///< the least time of which counts: others run on this machine, too
+  std::size_t repetitions;  ///< the least time of a task counts, and the median of whole draws
   std::size_t divisor;      ///< of the number of the workloads' triangles
 };
 inline constexpr ScalingEffort kQuickScaling{2, 100};

@@ -22,14 +22,14 @@ constexpr std::string_view kAbout =
     "Tasks timed one by one on one thread, played through the threads' own agenda; rings are measured.\\n"
     "A line bends where starting other threads (5 us, and 0.5 us each) and adding up their masks weigh as much as\\n"
     "a thread's share of the draw, and ends flat where the plan takes no more of them. Above the ideal: a target\\n"
-    "beyond the caches, whose tiles fit. Not in the model: memory bandwidth that threads share.";
+    "beyond the caches, whose tiles fit. Not in the model: cache lines and bandwidth that threads share.";
 
 }  // namespace
 
 std::string scaling_json(std::span<const ScalingPoint> points) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  const auto optional = [](const std::optional<double>& value) {
-    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  const auto measured = [](const ScalingPoint& point, double WholeDraws::*field) {
+    return point.measured ? nlohmann::ordered_json(*point.measured.*field) : nlohmann::ordered_json();
   };
   for (const ScalingPoint& point : points) {
     list.push_back({{"workload", point.workload},
@@ -43,27 +43,35 @@ std::string scaling_json(std::span<const ScalingPoint> points) {
                     {"tasks_ns", point.tasks_ns},
                     {"predicted_ns", point.predicted_ns},
                     {"predicted_speedup", point.predicted_speedup},
-                    {"measured_speedup", optional(point.measured_speedup)},
-                    {"measured_cpu", optional(point.measured_cpu)}});
+                    {"predicted_asleep", point.predicted_asleep},
+                    {"measured_speedup", measured(point, &WholeDraws::awake)},
+                    {"measured_asleep", measured(point, &WholeDraws::asleep)},
+                    {"measured_apart", measured(point, &WholeDraws::apart)},
+                    {"measured_cpu", measured(point, &WholeDraws::cpu)}});
   }
   return nlohmann::ordered_json{{"points", list}}.dump(2) + "\n";
 }
 
 std::string scaling_table(std::span<const ScalingPoint> points) {
-  std::string text =
-      fmt::format("{:>10} {:>8} {:>8} {:>7} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "workload", "threads", "used",
-                  "tiles", "chunks", "tasks", "predicted", "speedup", "measured", "CPU time");
-  const auto optional = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.2f}x", *value) : std::string();
-  };
+  constexpr auto kLine = "{:>9} {:>7} {:>4} {:>5} {:>6} {:>9} {:>9} {:>8} {:>8} {:>9} {:>8} {:>8} {:>7} {:>8}\n";
+  std::string text = fmt::format(kLine, "workload", "threads", "used", "tiles", "chunks", "tasks", "predicted",
+                                 "speed-up", "measured", "deviation", "asleep", "measured", "apart", "CPU time");
   for (const ScalingPoint& point : points) {
-    text +=
-        fmt::format("{:>10} {:>8} {:>8} {:>7} {:>8} {:>7.0f} us {:>7.0f} us {:>9.2f}x {:>10} {:>10}\n", point.workload,
-                    point.threads, point.used, fmt::format("{}x{}", point.tile_columns, point.tile_rows), point.chunks,
-                    point.tasks_ns / 1e3, point.predicted_ns / 1e3, point.predicted_speedup,
-                    optional(point.measured_speedup), optional(point.measured_cpu));
+    const auto measured = [&](double WholeDraws::*field) {
+      return point.measured ? fmt::format("{:.2f}x", *point.measured.*field) : std::string();
+    };
+    const std::string deviation =
+        point.measured ? fmt::format("{:+.0f} %", (point.measured->awake / point.predicted_speedup - 1) * 100) : "";
+    text += fmt::format(
+        kLine, point.workload, point.threads, point.used, fmt::format("{}x{}", point.tile_columns, point.tile_rows),
+        point.chunks, fmt::format("{:.0f} us", point.tasks_ns / 1e3),
+        fmt::format("{:.0f} us", point.predicted_ns / 1e3), fmt::format("{:.2f}x", point.predicted_speedup),
+        measured(&WholeDraws::awake), deviation, fmt::format("{:.2f}x", point.predicted_asleep),
+        measured(&WholeDraws::asleep), measured(&WholeDraws::apart), measured(&WholeDraws::cpu));
   }
-  return text;
+  return text +
+         "Speed-up: modelled, and measured on draws that follow each other; asleep: the same if threads must be "
+         "woken.\nApart: what threads reach that draw the same into masks of their own.\n";
 }
 
 std::string scaling_plot_program(std::span<const ScalingPoint> points, const std::string& path) {
@@ -93,7 +101,7 @@ std::string scaling_plot_program(std::span<const ScalingPoint> points, const std
     for (const ScalingPoint& point : points) {
       if (point.workload != name) continue;
       predicted += fmt::format("{} {}\n", point.threads, point.predicted_speedup);
-      if (point.measured_speedup) measured += fmt::format("{} {}\n", point.threads, *point.measured_speedup);
+      if (point.measured) measured += fmt::format("{} {}\n", point.threads, point.measured->awake);
     }
     text += predicted + "e\n" + measured + "e\n";
   }

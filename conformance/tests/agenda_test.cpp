@@ -42,6 +42,17 @@ TEST(Agenda, WhoHasNoTileHelpsWhereMostIsLeftIfThatIsWorthIt) {
   EXPECT_EQ(agenda.next(1), std::nullopt);
 }
 
+TEST(Agenda, WhatIsBegunForAThreadIsLeftToItIfHelpIsNotWorthIt) {
+  const std::array<double, 2> work{20, 40};
+  Agenda agenda(work, 4, 25);
+  EXPECT_EQ(agenda.begin(), 1);
+  EXPECT_EQ(agenda.next(-1), (Part{0, 0}));
+  EXPECT_EQ(agenda.next(-1), (Part{1, 0}));  // 40 are left, then 30 and 20
+  EXPECT_EQ(agenda.next(-1), (Part{1, 1}));
+  EXPECT_EQ(agenda.next(-1), std::nullopt);
+  EXPECT_EQ(agenda.next(1), (Part{1, 2}));
+}
+
 TEST(Agenda, ManyThreadsGetEveryPartOnce) {
   constexpr std::size_t kParts = 1'000, kThreads = 8;
   const std::vector<double> work{5, 0, 300, 7, 7, 90, 1};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -22,15 +23,50 @@ std::vector<Fixed> triangles(const Target& target, std::size_t count, int size, 
   return list;
 }
 
+Fixed triangle(const std::array<std::array<int, 2>, 3>& pixels) {
+  Fixed fixed;
+  for (std::size_t i = 0; i < 3; ++i) {
+    fixed[i] = {*Int<24>::checked(pixels[i][0] * 256), *Int<24>::checked(pixels[i][1] * 256)};
+  }
+  return fixed;
+}
+
 TEST(Plan, ALittleWorkIsForOneThread) {
   const Target screen = *Target::make(1920, 1080);
   EXPECT_EQ(make_plan({}, screen, 8).threads, 1);
-  EXPECT_EQ(make_plan(triangles(screen, 100, 10, 1920), screen, 8).threads, 1);
+  for (const std::size_t count : {1u, 10u, 100u}) {
+    const auto small = triangles(screen, count, 10, 1920);
+    EXPECT_FALSE(may_pay(small, screen)) << count;
+    EXPECT_EQ(make_plan(small, screen, 8).threads, 1) << count;
+  }
   EXPECT_EQ(make_plan(triangles(screen, 100'000, 10, 1920), screen, 8).threads, 8);
   EXPECT_EQ(make_plan(triangles(screen, 100'000, 10, 1920), screen, 1).threads, 1);
   // As many triangles cost less than adding up the masks of a target that large.
   const Target large = *Target::make(16'384, 16'384);
   EXPECT_EQ(make_plan(triangles(large, 10'000, 10, 16'384), large, 2).threads, 1);
+}
+
+TEST(Plan, AsMuchWorkAsItTakesToWakeAThreadIsShared) {
+  const Target screen = *Target::make(1920, 1080);
+  const std::vector<Fixed> whole(100, triangle({{{0, 0}, {1920, 0}, {0, 1080}}}));
+  const auto first = [&](std::size_t count) { return std::span(whole).first(count); };
+  EXPECT_FALSE(may_pay(first(10), screen));
+  EXPECT_EQ(make_plan(first(10), screen, 2).threads, 1);
+  EXPECT_TRUE(may_pay(first(100), screen));
+  EXPECT_EQ(make_plan(first(100), screen, 2).threads, 2);
+  // Large ones are parts by themselves, or the last one would keep the other threads waiting.
+  EXPECT_LT(make_plan(first(100), screen, 2).chunk, kMaxLanes);
+  // What pays if the other thread is there need not pay if it must be woken.
+  EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::awake).threads, 2);
+  EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::asleep).threads, 1);
+  EXPECT_EQ(make_plan(first(100), screen, 2, Helpers::asleep).threads, 2);
+}
+
+TEST(Plan, AFewLargeTrianglesAmongSmallOnesAreSeen) {
+  const Target screen = *Target::make(1920, 1080);
+  auto list = triangles(screen, 1'000, 10, 1920);
+  for (std::size_t i = 1; i < list.size(); i += 3) list[i] = triangle({{{0, 0}, {1920, 0}, {0, 1080}}});
+  EXPECT_EQ(make_plan(list, screen, 2).threads, 2);
 }
 
 TEST(Plan, TilesAreForLargeTargetsAndManyThreads) {
@@ -69,7 +105,9 @@ TEST(Plan, ChunksAndPartsSufficeForAllThreads) {
       EXPECT_EQ(plan.threads, 16);
       EXPECT_GE(plan.chunk, 1u);
       const std::size_t chunks = (count + plan.chunk - 1) / plan.chunk;
-      EXPECT_GE(chunks, std::min<std::size_t>(count, 16 * 8));
+      // Small triangles of a single tile fill whole vectors.
+      EXPECT_GE(chunks, side == 1 ? std::min<std::size_t>(count / kMaxLanes, 16 * 8 - 3)
+                                  : std::min<std::size_t>(count, 16 * 8));
       EXPECT_GE(plan.parts, 1u);
       EXPECT_LE(plan.parts, chunks);
       EXPECT_GE(plan.parts * tiles, std::min<std::size_t>(chunks * tiles, 16 * 32));

@@ -170,6 +170,17 @@ void FastRasterizer::cover_tile(Triangles triangles, TileMask& mask) const {
   kernels_->cover_tile(triangles, mask.tile(), mask.strips());
 }
 
+void FastRasterizer::move_strips(TileMask& from, StripMask& to, std::size_t begin, std::size_t end) const {
+  const Tile& tile = from.tile();
+  const Strips tile_strips = from.strips(), strips = to.strips();
+  const auto first_strip = static_cast<std::size_t>(tile.left / kStripWidth);
+  for (std::size_t strip = begin; strip < end; ++strip) {
+    kernels_->move_words(tile_strips.words + strip * tile_strips.stride,
+                         strips.words + (first_strip + strip) * strips.stride + static_cast<std::size_t>(tile.top),
+                         static_cast<std::size_t>(tile.height));
+  }
+}
+
 void FastRasterizer::find_reach(Triangles triangles, const TileGrid& grid, std::span<std::uint64_t> words) const {
   assert(words.size() >=
          (triangles.size() + kReachBlock - 1) / kReachBlock * static_cast<std::size_t>(grid.columns() + grid.rows()));

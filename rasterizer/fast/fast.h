@@ -78,6 +78,9 @@ class FastRasterizer {
   /// Adds the coverage of every triangle, as far as it lies in mask.tile(), to `mask`.
   void cover_tile(Triangles triangles, TileMask& mask) const;
 
+  /// Adds strips `begin` to before `end` of the tile that `from` is of to the target's mask, and clears them.
+  void move_strips(TileMask& from, StripMask& to, std::size_t begin, std::size_t end) const;
+
   /// Which columns and rows of tiles the bounding boxes of triangles reach with a sample: for every kReachBlock
   /// triangles grid.columns() + grid.rows() words, the columns' first, in which bit i is set if triangle i reaches that
   /// column or row. A triangle reaches a tile if both bits are set. Writes all these words, which `words` has room for.

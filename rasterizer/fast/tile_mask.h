@@ -23,7 +23,7 @@ static_assert(kMarginRows % TileGrid::kRowUnit == 0 && kMarginRows <= kRowsBelow
 class TileMask {
  public:
   /// From here on the mask is that of `tile`, all clear. All strips of the tile before it, if there was one, must have
-  /// been added to a mask.
+  /// been moved to a target's mask.
   void begin(const Tile& tile) {
     const int count = (tile.width + kStripWidth - 1) / kStripWidth;
     // Of a tile as large as the one before it that one has left clear strips, and margins of no use.
@@ -39,9 +39,6 @@ class TileMask {
   }
 
   const Tile& tile() const { return tile_; }
-
-  /// Adds the tile's strips from `begin` to before `end` to `mask`, and clears them.
-  void add_to(StripMask& mask, std::size_t begin, std::size_t end);
 
   /// Strip 0 and row 0 are the tile's first.
   Strips strips() { return {blocks_.data()->words + first_word(), stride_, count_, tile_.height}; }

@@ -9,6 +9,8 @@
 #define EDGECASE_FAST_TILES_INL_H_
 #endif
 
+#include <utility>
+
 HWY_BEFORE_NAMESPACE();
 namespace edgecase::rasterizer::HWY_NAMESPACE {
 
@@ -45,6 +47,17 @@ static_assert(kBlockColumns <= (1 + kMarginStrips) * kStripWidth && kSmallColumn
 
 inline void cover_tile(std::span<const SnappedTriangle> triangles, const Tile& tile, const Strips& strips) {
   draw_list(triangles, TilePlane{tile}, tile.width, 0, strips);
+}
+
+inline void move_words(std::uint32_t* from, std::uint32_t* to, std::size_t words) {
+  const auto d = DU32();
+  std::size_t i = 0;
+  for (; i + kLanes <= words; i += kLanes) {
+    const U32 moved = hn::LoadU(d, from + i);
+    hn::StoreU(hn::Or(hn::LoadU(d, to + i), moved), d, to + i);
+    hn::StoreU(hn::Zero(d), d, from + i);
+  }
+  for (; i < words; ++i) to[i] |= std::exchange(from[i], 0);
 }
 
 // Reach.

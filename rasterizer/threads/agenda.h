@@ -38,6 +38,10 @@ class Agenda {
     std::ranges::stable_sort(order_, std::ranges::greater(), [&](int tile) { return work_[index(tile)]; });
   }
 
+  /// Begins the tile with the most work, for a thread that will ask with it as its current one: whoever else wants it
+  /// helps. Before any thread asks.
+  int begin() { return order_[begun_.fetch_add(1, std::memory_order_relaxed)]; }
+
   /// The next part for a thread whose last part was of tile `current`, -1 for none. Any number of threads may ask, each
   /// until there is nothing left for it: who begins a tile answers for all of its parts being taken.
   std::optional<Part> next(int current) {

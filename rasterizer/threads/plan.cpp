@@ -1,10 +1,10 @@
 #include "rasterizer/threads/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
-#include "rasterizer/edge.h"
 #include "rasterizer/fast/strip_mask.h"
 
 namespace edgecase::rasterizer {
@@ -15,85 +15,136 @@ using Triangle = FixedTriangle<Format16_8>;
 // Costs in ns, as measured on a Zen 4 core with AVX-512. Only their ratios decide, and a factor of two in one of them
 // changes little: between the right plan and the next one the difference is small.
 constexpr double kSetup = 6, kRow = 0.6, kPixel = 0.001;  // of drawing a triangle
+constexpr double kGroup = 120;                            // of setting up one that is alone in its vector
 constexpr double kBin = 2.6, kBinBound = 0.22;            // of binning one, and for each column and row of tiles
 constexpr double kCopy = 1.5;                             // of a triangle in a bin
 constexpr double kCutRows = 60;                           // of a cut between rows of a triangle, at most
-constexpr double kCutColumns = 2;   // of one between its columns, in the work on the whole: it is then drawn clipped,
-constexpr double kUnclipped = 64;   // unless it has no more rows and columns than this
-constexpr double kMergeWord = 0.3;  // of a word of a tile's mask: clearing and adding it
-constexpr double kStart = 5'000, kStartThread = 500;  // of having threads at all, and of each
+constexpr double kCutColumns = 2;  // of one between its columns, in the work on the whole: it is then drawn clipped,
+constexpr double kUnclipped = 64;  // unless it has no more rows and columns than this
+
+// Threads that have slept: how long the call that wakes them takes, and when they are there. oneTBB's sleep if there
+// was nothing to do for 0.1 to 0.2 ms. Before that, they begin within kStartThread.
+constexpr double kWake = 8'000, kAsleep = 40'000, kStartThread = 500;
+
+/// A thread is worth it from this much work on.
+constexpr double kLeastWork = 25'000, kLeastToShare = 2 * kLeastWork;
 
 /// What a cache line of a mask costs if the mask, of so many bytes, is drawn into anywhere.
 double miss(double bytes) { return bytes <= (1 << 20) ? 0 : bytes <= (16 << 20) ? 4 : 20; }
+/// Of moving a word of a mask of a target of so many bytes to it.
+double move_word(double bytes) { return bytes <= (1 << 20) ? 0.1 : 0.3; }
 
-/// A triangle's pixels on the target; it stands for `count` triangles.
+/// A triangle's pixels on the target.
 struct Sample {
   int left, top, right, bottom;
-  double count;
-  double work;  ///< of one
+  double work;
   double columns() const { return right - left; }
   double rows() const { return bottom - top; }
   double lines() const { return (rows() / TileGrid::kRowUnit + 1) * (columns() / kStripWidth + 1); }
 };
 
-std::vector<Sample> sample(std::span<const Triangle> triangles, const Target& target) {
-  // All of this is done before any thread starts: it must take a few us at most.
-  constexpr std::size_t kSamples = 64;
-  const std::size_t count = std::min(kSamples, triangles.size());
-  std::vector<Sample> samples;
-  samples.reserve(count);
+/// Some triangles of a list, equally far apart, and of how many each is one. Those that miss the target are left out.
+struct Samples {
+  static constexpr std::size_t kMost = 64;
+  std::array<Sample, kMost> samples;
+  std::size_t size = 0;
+  double each = 0;
+  const Sample* begin() const { return samples.data(); }
+  const Sample* end() const { return samples.data() + size; }
+};
+
+/// All of this is done before any thread starts, and for lists that one thread draws in less than a us: it neither
+/// allocates nor uses the types that carry widths, which cost ten times the time without optimization across calls.
+Samples sample(std::span<const Triangle> triangles, const Target& target, std::size_t most) {
+  const std::size_t count = std::min(most, triangles.size());
+  const int width = target.width().value(), height = target.height().value();
+  // The first pixel whose centre is at or right of v, for vertices in units of 2^-8 px.
+  const auto pixel = [](int v, int extent) { return std::clamp((v + 127) >> 8, 0, extent); };
+  Samples list;
+  list.each = static_cast<double>(triangles.size()) / static_cast<double>(std::max<std::size_t>(count, 1));
   for (std::size_t i = 0; i < count; ++i) {
-    const Triangle& triangle = triangles[triangles.size() * i / count];
-    const auto box = pixel_box<Format16_8>(triangle, View<>{target});
-    if (!box) continue;
-    Sample& s = samples.emplace_back();
-    s = {box->left.value(), box->top.value(), box->right.value(), box->bottom.value(), 0, 0};
-    s.count = static_cast<double>(triangles.size()) / static_cast<double>(count);
-    const double area = std::abs(static_cast<double>(doubled_area<Format16_8>(triangle).value())) / (2 * 256 * 256);
+    const auto& [a, b, c] = triangles[triangles.size() * i / count];
+    const int ax = a.x.value(), ay = a.y.value(), bx = b.x.value(), by = b.y.value(), cx = c.x.value(),
+              cy = c.y.value();
+    Sample s{pixel(std::min({ax, bx, cx}), width), pixel(std::min({ay, by, cy}), height),
+             pixel(std::max({ax, bx, cx}), width), pixel(std::max({ay, by, cy}), height), 0};
+    if (s.left >= s.right || s.top >= s.bottom) continue;
+    const double doubled_area =
+        static_cast<double>(bx - ax) * static_cast<double>(cy - ay) - static_cast<double>(cx - ax) * (by - ay);
+    const double area = std::abs(doubled_area) / (2 * 256 * 256);
     s.work = kSetup + kRow * s.rows() + kPixel * std::min(area, s.rows() * s.columns());
+    list.samples[list.size++] = s;
   }
-  return samples;
+  return list;
+}
+
+double bytes_of(const Target& target) { return static_cast<double>(StripLayout(target).words()) * 4; }
+
+double one_thread_time(const Samples& samples, const Target& target) {
+  const double miss_target = miss(bytes_of(target));
+  double sum = 0;
+  for (const Sample& s : samples) sum += s.work + s.lines() * miss_target;
+  return sum * samples.each;
+}
+
+/// Of a triangle.
+double most_work(const Target& target) {
+  const double width = target.width().value(), height = target.height().value();
+  const Sample whole{0, 0, target.width().value(), target.height().value(), 0};
+  return kSetup + kRow * height + kPixel * width * height + whole.lines() * miss(bytes_of(target));
 }
 
 struct Estimate {
-  double one_thread;  ///< without tiles
-  double total;       ///< of the tasks of all threads
-  double least;       ///< which no grid can make less
+  double total;    ///< of the tasks of all threads
+  double drawing;  ///< of the triangles, were none cut
+  double least;    ///< which no grid can make less: drawing, and every pixel's word moved
 };
 
-Estimate estimate(std::span<const Sample> samples, std::size_t triangles, const TileGrid& grid, int threads) {
+double words_of(const Tile& tile) {
+  return static_cast<double>(tile.height) * ((tile.width + kStripWidth - 1) / kStripWidth);
+}
+
+Estimate estimate(const Samples& samples, std::size_t triangles, const TileGrid& grid, int threads) {
   const Tile tile = grid.tile(0);
-  const double tiles = grid.count(), width = tile.width, height = tile.height;
-  const double tile_words = height * ((width + kStripWidth - 1) / kStripWidth);
-  const double miss_target = miss(tiles * tile_words * 4), miss_tile = miss(tile_words * 4);
-  Estimate sum{0, std::max<double>(tiles + threads - 1, threads) * tile_words * kMergeWord, 0};
+  const double tiles = grid.count(), tile_words = words_of(tile);
+  const double target_bytes = tiles * tile_words * 4;
+  const double miss_tile = miss(tile_words * 4);
+  // One thread draws into the target if that is one tile; else every tile has a mask. The others have one more each.
+  const double moved = (tiles > 1 ? tiles + threads - 1 : threads - 1) * tile_words;
+  Estimate sum{moved * move_word(target_bytes), 0, tiles * tile_words * move_word(target_bytes)};
   if (tiles > 1) sum.total += static_cast<double>(triangles) * (kBin + kBinBound * (grid.columns() + grid.rows()));
+  const double per_height = 1.0 / tile.height, per_width = 1.0 / tile.width;
+  double drawing = 0, rest = 0;
   for (const Sample& s : samples) {
     // Cuts through a triangle that lies anywhere.
-    const double row_cuts = std::min<double>(s.rows() / height, grid.rows() - 1);
-    const double column_cuts = std::min<double>(s.columns() / width, grid.columns() - 1);
+    const double row_cuts = std::min<double>(s.rows() * per_height, grid.rows() - 1);
+    const double column_cuts = std::min<double>(s.columns() * per_width, grid.columns() - 1);
     const bool clipped = std::max(s.rows(), s.columns()) > kUnclipped;
     const double cuts = row_cuts * std::min(s.work, kCutRows) + column_cuts * s.work * (clipped ? kCutColumns : 1);
     const double copies = tiles > 1 ? (row_cuts + 1) * (column_cuts + 1) * kCopy : 0;
-    sum.one_thread += s.count * (s.work + s.lines() * miss_target);
-    sum.least += s.count * s.work;
-    sum.total += s.count * (s.work + cuts + copies + s.lines() * miss_tile);
+    drawing += s.work;
+    rest += cuts + copies + s.lines() * miss_tile;
   }
+  sum.drawing = samples.each * drawing;
+  sum.total += sum.drawing + samples.each * rest;
+  sum.least += sum.drawing;
   return sum;
 }
 
 /// The grid of the least estimate, and that.
-std::pair<TileGrid, double> best_grid(std::span<const Sample> samples, std::size_t triangles, const Target& target,
-                                      int threads) {
+std::pair<TileGrid, Estimate> best_grid(const Samples& samples, std::size_t triangles, const Target& target,
+                                        int threads) {
   constexpr int kMostTilesPerThread = 8;
   constexpr double kGoodEnough = 1.04;
-  std::pair best(TileGrid(target, 1, 1), static_cast<double>(INFINITY));
+  const TileGrid whole(target, 1, 1);
+  std::pair best(whole, estimate(samples, triangles, whole, threads));
   for (int rows = 1; rows <= TileGrid::kMostASide; rows *= 2) {
     for (int columns = 1; columns <= rows && rows * columns <= kMostTilesPerThread * threads; columns *= 2) {
+      if (best.second.total < kGoodEnough * best.second.least) return best;
+      if (rows * columns == 1) continue;
       const TileGrid grid(target, columns, rows);
       const Estimate sum = estimate(samples, triangles, grid, threads);
-      if (sum.total < best.second) best = {grid, sum.total};
-      if (sum.total < kGoodEnough * sum.least) return best;
+      if (sum.total < best.second.total) best = {grid, sum};
     }
   }
   return best;
@@ -103,7 +154,7 @@ int overlap(int a_begin, int a_end, int b_begin, int b_end) {
   return std::max(std::min(a_end, b_end) - std::max(a_begin, b_begin), 0);
 }
 
-std::vector<double> tile_work(std::span<const Sample> samples, const TileGrid& grid) {
+std::vector<double> tile_work(const Samples& samples, const TileGrid& grid) {
   std::vector<double> work(static_cast<std::size_t>(grid.count()));
   const auto columns = static_cast<std::size_t>(grid.columns()), rows = static_cast<std::size_t>(grid.rows());
   for (const Sample& s : samples) {
@@ -112,62 +163,93 @@ std::vector<double> tile_work(std::span<const Sample> samples, const TileGrid& g
       if (height == 0) continue;
       for (std::size_t column = 0; column < columns; ++column) {
         const int width = overlap(s.left, s.right, grid.columns_at()[column], grid.columns_at()[column + 1]);
-        work[row * columns + column] += s.count * s.work * width * height / (s.columns() * s.rows());
+        work[row * columns + column] += samples.each * s.work * width * height / (s.columns() * s.rows());
       }
     }
   }
   return work;
 }
 
-Plan finish_plan(std::span<const Sample> samples, std::size_t triangles, const TileGrid& grid, int threads,
-                 double total) {
-  // The last of so many parts keeps the other threads waiting for 1/64 of the time on average. Chunks are parts if
-  // there is one tile; else they are larger, so that a bin holds more than a few triangles.
+/// When `threads` threads are done, if `total` is shared out evenly.
+double finish_time(double total, int threads, Helpers helpers) {
+  for (int thread = 0; thread < threads; ++thread) {
+    total += helpers == Helpers::awake ? start_awake(thread) : start_asleep(thread);
+  }
+  return total / threads;
+}
+
+/// Triangles of a chunk that is a part of a single tile.
+std::size_t chunk_of_whole(std::size_t triangles, std::size_t threads, double work) {
+  // The last of so many parts of a thread keeps the others waiting for 1/64 of its time on average.
+  constexpr std::size_t kPartsPerThread = 32;
+  const std::size_t chunk = std::max<std::size_t>(triangles / (threads * kPartsPerThread), 1);
+  if (chunk >= kMaxLanes) return chunk / kMaxLanes * kMaxLanes;
+  // Vectors that are not full cost their setup; full ones are larger parts to wait for. Per thread:
+  const double count = static_cast<double>(triangles), all = static_cast<double>(threads);
+  const double filled = static_cast<double>(chunk) / kMaxLanes;
+  const double half_full = count / (filled * kMaxLanes) * kGroup * (1 - filled) / all;
+  const double longer = (1 - filled) * kMaxLanes / 2 * work / count;
+  return half_full > longer ? kMaxLanes : chunk;
+}
+
+Plan finish_plan(const Samples& samples, std::size_t triangles, const TileGrid& grid, int threads,
+                 const Estimate& estimate, Helpers helpers) {
+  // In bins, so many chunks that a bin holds more than a few triangles; parts as above.
   constexpr std::size_t kPartsPerThread = 32, kChunksPerThread = 8;
   constexpr std::size_t kMostInChunk = 4096;
   const auto tiles = static_cast<std::size_t>(grid.count()), all = static_cast<std::size_t>(threads);
-  std::size_t chunk =
-      std::clamp<std::size_t>(triangles / (all * (tiles == 1 ? kPartsPerThread : kChunksPerThread)), 1, kMostInChunk);
-  // Whole vectors, or whole words of bits.
-  const std::size_t unit = tiles == 1 ? kMaxLanes : kReachBlock;
-  if (chunk > unit) chunk = chunk / unit * unit;
+  std::size_t chunk = std::max<std::size_t>(triangles / (all * kChunksPerThread), 1);
+  if (tiles == 1) {
+    chunk = chunk_of_whole(triangles, all, estimate.drawing);
+  } else if (chunk > kReachBlock) {
+    chunk = chunk / kReachBlock * kReachBlock;
+  }
+  chunk = std::min(chunk, kMostInChunk);
   const std::size_t chunks = std::max<std::size_t>((triangles + chunk - 1) / chunk, 1);
   const std::size_t parts = tiles == 1 ? chunks : std::clamp<std::size_t>(all * kPartsPerThread / tiles, 1, chunks);
-  const Tile tile = grid.tile(0);
-  const double tile_words = static_cast<double>(tile.height) * (tile.width + kStripWidth - 1) / kStripWidth;
+  const double tile_words = words_of(grid.tile(0));
   return {grid,
           threads,
           chunk,
           parts,
-          tile_work(samples, grid),
-          start_of_thread(threads - 1) + total / threads,
-          2 * kMergeWord * tile_words};
+          tiles == 1 ? std::vector{estimate.drawing} : tile_work(samples, grid),
+          finish_time(estimate.total, threads, helpers),
+          2 * move_word(static_cast<double>(tiles) * tile_words * 4) * tile_words};
 }
 
 }  // namespace
 
-double start_of_thread(int thread) { return thread == 0 ? 0 : kStart + kStartThread * thread; }
+double start_awake(int thread) { return kStartThread * thread; }
+double start_asleep(int thread) { return thread == 0 ? kWake : kAsleep + kStartThread * (thread - 1); }
 
 Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads, int columns, int rows) {
-  const std::vector<Sample> samples = sample(triangles, target);
+  const Samples samples = sample(triangles, target, Samples::kMost);
   const TileGrid grid(target, columns, rows);
-  return finish_plan(samples, triangles.size(), grid, threads,
-                     estimate(samples, triangles.size(), grid, threads).total);
+  return finish_plan(samples, triangles.size(), grid, threads, estimate(samples, triangles.size(), grid, threads),
+                     Helpers::awake);
 }
 
-Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads) {
-  const std::vector<Sample> samples = sample(triangles, target);
+bool may_pay(std::span<const Triangle> triangles, const Target& target) {
+  // What is drawn in a us must not be planned for another one: only as many triangles are looked at as it takes.
+  const double count = static_cast<double>(triangles.size());
+  if (count * most_work(target) < kLeastToShare) return false;
+  // Those looked at may be the smallest ones, the sooner the fewer they are.
+  const std::size_t few = std::clamp<std::size_t>(triangles.size() / 32, 1, 4);
+  return 4 * one_thread_time(sample(triangles, target, few), target) >= kLeastToShare &&
+         2 * one_thread_time(sample(triangles, target, 16), target) >= kLeastToShare;
+}
+
+Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads, Helpers helpers) {
+  const Samples samples = sample(triangles, target, Samples::kMost);
+  const double one_thread = one_thread_time(samples, target);
   const TileGrid whole(target, 1, 1);
-  const double one_thread = estimate(samples, triangles.size(), whole, 1).one_thread;
   const Plan alone{whole, 1, std::max<std::size_t>(triangles.size(), 1), 1, {one_thread}, one_thread, 0};
-  // A thread is worth it from this much work on: several times what it takes to start.
-  constexpr double kLeastWork = 20'000;
   threads = static_cast<int>(std::min(static_cast<double>(threads), one_thread / kLeastWork));
-  if (threads <= 1) return alone;
-  const auto [grid, total] = best_grid(samples, triangles.size(), target, threads);
-  Plan plan = finish_plan(samples, triangles.size(), grid, threads, total);
+  if (threads <= 1 || !may_pay(triangles, target)) return alone;
+  const auto [grid, sum] = best_grid(samples, triangles.size(), target, threads);
+  Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum, helpers);
   // What is estimated to be saved must be more than what estimates are off by.
-  constexpr double kMargin = 1.25;
+  constexpr double kMargin = 1.15;
   return plan.estimate * kMargin < one_thread ? plan : alone;
 }
 

@@ -1,10 +1,10 @@
 // Plan: into how many tiles, chunks of triangles and threads a drawing is cut, from what each way is estimated to cost.
 //
-// One tile needs no bins: every thread draws its share of the triangles into a mask of its own, and the masks are added
-// up. That costs a mask's worth of memory traffic for each thread. Tiles cost less of it, and their masks stay in the
-// caches, but binning reads and copies every triangle once more, and triangles on a tile's border are drawn in both. So
-// a screen's mask and few threads want one tile; large targets and many threads want more, but no more than needed,
-// because threads help each other with a tile (agenda.h).
+// One tile needs no bins: the first thread draws its share of the triangles in place, each other one into a mask of its
+// own, and these are added up. That costs a mask's worth of memory traffic for each of them. Tiles cost less of it, and
+// their masks stay in the caches, but binning reads and copies every triangle once more, and triangles on a tile's
+// border are drawn in both. So a screen's mask and few threads want one tile; large targets and many threads want more,
+// but no more than needed, because threads help each other with a tile (agenda.h).
 //
 // Rows of tiles before columns: a triangle's rows are what drawing it goes by, so that a cut between rows adds only the
 // setup, while one between columns also makes both sides clip.
@@ -35,14 +35,24 @@ struct Plan {
   double least_help;
 };
 
-/// ns until thread `thread` of several works, 0 being the caller's own: assumed rather than measured.
-double start_of_thread(int thread);
+/// ns from the call until thread `thread` of several works, 0 being the caller's own: as measured on two processors,
+/// assumed for more. First where threads are still waiting for work, as they do for 0.1 to 0.2 ms after a draw; then
+/// where they sleep, and the caller has to wake them.
+double start_awake(int thread);
+double start_asleep(int thread);
 
 /// The plan with `columns` by `rows` tiles for exactly `threads` threads.
 Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads, int columns,
                int rows);
 
+/// Whether more than one thread may save time, as far as can be told at little cost beside that of drawing the list.
+bool may_pay(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target);
+
+/// Whether the other threads wait for work, or must be woken first.
+enum class Helpers { awake, asleep };
+
 /// The plan that is estimated to be done first with up to `threads` threads: one thread's, where more save too little.
-Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads);
+Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads,
+               Helpers helpers = Helpers::awake);
 
 }  // namespace edgecase::rasterizer

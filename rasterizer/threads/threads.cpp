@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <cassert>
+#include <chrono>
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ThreadedRasterizer::State {
   tbb::task_arena arena;
   std::vector<TiledDraw::Canvas> canvases;
   TiledDraw::Memory memory;
+  std::chrono::steady_clock::time_point last_end{};  ///< of a draw that may have been worth sharing
 };
 
 ThreadedRasterizer::ThreadedRasterizer(const FastRasterizer& fast, int threads) {
@@ -32,8 +34,14 @@ ThreadedRasterizer::ThreadedRasterizer(ThreadedRasterizer&&) noexcept = default;
 ThreadedRasterizer& ThreadedRasterizer::operator=(ThreadedRasterizer&&) noexcept = default;
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask) {
-  if (triangles.empty()) return;
-  cover_union(triangles, mask, make_plan(triangles, mask.target(), state_->arena.max_concurrency()));
+  const int threads = state_->arena.max_concurrency();
+  if (threads == 1 || !may_pay(triangles, mask.target())) return state_->fast.cover_union(triangles, mask);
+  // After another draw the helpers still wait for work; or if that was for one thread only, waking them now pays on the
+  // draws that are likely to follow as fast.
+  using Clock = std::chrono::steady_clock;
+  const bool soon = Clock::now() - state_->last_end < std::chrono::microseconds(100);
+  cover_union(triangles, mask, make_plan(triangles, mask.target(), threads, soon ? Helpers::awake : Helpers::asleep));
+  state_->last_end = Clock::now();
 }
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask,
@@ -42,6 +50,7 @@ void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> 
   if (plan.threads <= 1) return state_->fast.cover_union(triangles, mask);
   TiledDraw drawing(state_->fast, triangles, plan, mask, state_->memory);
   const auto work = [&](std::size_t worker) { drawing.work(state_->canvases[worker]); };
+  // The caller begins with worker 0, the canvas in place, and takes over what no other thread has come for.
   state_->arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(plan.threads), work, tbb::simple_partitioner());
   });

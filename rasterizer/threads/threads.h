@@ -8,11 +8,15 @@
 //
 // Tiles are drawn in the order of falling work; towards the end, threads without a tile help with one that has much
 // left (agenda.h). What limits many threads:
-//   - before they start, a few us for the plan;
+//   - before they start, a us for the plan; and if they sleep, 8 us for the call that wakes them and 25 to 40 until
+//     they are there. oneTBB lets them wait for a draw for 0.1 to 0.2 ms, within which they begin after one us;
 //   - at the end, one part of a tile, 1/32 of a thread's share: on average half of that is lost;
 //   - in total, the triangles on tiles' borders, which are drawn twice, and a mask for each tile and each helper.
 // `edgecase bench --scaling` plays these tasks, with the times they take on one thread, through the agenda for up to
-// 64 threads. What it cannot show is threads that share a memory's bandwidth.
+// 64 threads; conformance/bench/scaling.h says what it leaves out.
+//
+// The caller is one of the threads. It begins at once, and waits for a part that another thread is drawing, never for a
+// thread that has not begun: if none comes, it draws everything itself, as fast as without threads but for waking them.
 //
 // No two threads write to a cache line at the same time: chunks have bins of their own, threads have masks of their
 // own, and a tile's part of the target begins and ends between cache lines (tile_grid.h) and is added to under a lock.

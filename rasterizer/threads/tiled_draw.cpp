@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <bit>
 #include <thread>
+#include <utility>
 
 namespace edgecase::rasterizer {
 namespace {
 
 std::size_t divided_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+
+/// Strips of a tile are added to the mask so many at a time.
+constexpr std::size_t kStripsAtOnce = 2;
 
 }  // namespace
 
@@ -20,7 +24,11 @@ TiledDraw::TiledDraw(const FastRasterizer& fast, std::span<const Triangle> trian
       chunks_(divided_up(triangles.size(), plan.chunk)),
       memory_(memory),
       agenda_(plan.tile_work, plan.parts, plan.least_help) {
-  if (!binned()) return;
+  if (!binned()) {
+    apart_.resize(static_cast<std::size_t>(plan.threads));
+    agenda_.begin();  // for the canvas in place: a mask apart must be worth adding
+    return;
+  }
   while (memory_.bins.size() < chunks_) memory_.bins.push_back(std::make_unique<Bins>());
   for (std::size_t chunk = 0; chunk < chunks_; ++chunk) memory_.bins[chunk]->done.store(false);
 }
@@ -28,7 +36,7 @@ TiledDraw::TiledDraw(const FastRasterizer& fast, std::span<const Triangle> trian
 void TiledDraw::work(Canvas& canvas) {
   const std::size_t to_bin = binned() ? chunks_ : 0;
   for (std::size_t chunk = next_to_bin_++; chunk < to_bin; chunk = next_to_bin_++) bin(chunk);
-  int tile = -1;
+  int tile = in_place(canvas) ? 0 : -1;
   while (const auto part = agenda_.next(tile)) {
     tile = part->tile;
     draw(*part, canvas);
@@ -79,31 +87,39 @@ void TiledDraw::bin(std::size_t chunk) {
 }
 
 void TiledDraw::draw(const Part& part, Canvas& canvas) {
-  if (canvas.tile_ != part.tile) finish(canvas);
+  if (binned() && canvas.tile_ != part.tile) finish(canvas);
   for (std::size_t chunk = first_chunk(part.number); chunk < first_chunk(part.number + 1); ++chunk) {
-    draw_bin(part.tile, chunk, canvas);
+    if (binned()) {
+      draw_bin(part.tile, chunk, canvas);
+    } else {
+      draw_whole(chunk, canvas);
+    }
   }
+  if (!binned()) drawn_.fetch_add(1, std::memory_order_release);
+}
+
+void TiledDraw::draw_whole(std::size_t chunk, Canvas& canvas) {
+  if (in_place(canvas)) return fast_.cover_union(triangles_of(chunk), mask_);
+  if (canvas.tile_ < 0) {
+    canvas.tile_ = 0;
+    canvas.mask_.begin(plan_.grid.tile(0));
+    apart_[apart_count_.fetch_add(1, std::memory_order_relaxed)] = &canvas;
+  }
+  fast_.cover_tile(triangles_of(chunk), canvas.mask_);
 }
 
 void TiledDraw::draw_bin(int tile, std::size_t chunk, Canvas& canvas) const {
-  std::span<const Triangle> triangles = triangles_of(chunk);
-  if (binned()) {
-    const Bins& bins = *memory_.bins[chunk];
-    // Who has taken the chunk is binning it at this moment.
-    while (!bins.done.load(std::memory_order_acquire)) std::this_thread::yield();
-    const std::uint32_t* const begin = bins.begin.data() + tile;
-    triangles = std::span(bins.triangles).subspan(begin[0], begin[1] - begin[0]);
-  }
+  const Bins& bins = *memory_.bins[chunk];
+  // Who has taken the chunk is binning it at this moment.
+  while (!bins.done.load(std::memory_order_acquire)) std::this_thread::yield();
+  const std::uint32_t* const begin = bins.begin.data() + tile;
+  const auto triangles = std::span(std::as_const(bins.triangles)).subspan(begin[0], begin[1] - begin[0]);
   if (triangles.empty()) return;
   if (canvas.tile_ < 0) {
     canvas.tile_ = tile;
     canvas.mask_.begin(plan_.grid.tile(tile));
   }
-  if (binned()) {
-    draw_in_order(triangles, canvas);
-  } else {
-    fast_.cover_tile(triangles, canvas.mask_);
-  }
+  draw_in_order(triangles, canvas);
 }
 
 void TiledDraw::draw_in_order(std::span<const Triangle> triangles, Canvas& canvas) const {
@@ -128,18 +144,36 @@ void TiledDraw::draw_waiting(Canvas& canvas) const {
   canvas.waiting_ = 0;
 }
 
+void TiledDraw::add_canvases() {
+  // Who has taken a part is drawing it at this moment: nobody waits for a thread that has not begun.
+  while (drawn_.load(std::memory_order_acquire) < plan_.parts) std::this_thread::yield();
+  const std::size_t count = apart_count_.load(std::memory_order_relaxed);
+  if (count == 0) return;
+  const auto strips = static_cast<std::size_t>(mask_.strips().count);
+  for (std::size_t first = next_to_add_.fetch_add(kStripsAtOnce, std::memory_order_relaxed); first < strips;
+       first = next_to_add_.fetch_add(kStripsAtOnce, std::memory_order_relaxed)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      fast_.move_strips(apart_[i]->mask_, mask_, first, std::min(first + kStripsAtOnce, strips));
+    }
+  }
+}
+
 void TiledDraw::finish(Canvas& canvas) {
+  if (!binned()) {
+    add_canvases();
+    canvas.tile_ = -1;
+    return;
+  }
   if (canvas.tile_ < 0) return;
   if (canvas.waiting_ > 0) draw_waiting(canvas);
-  // Threads that have helped each other with a tile add theirs to the same words, a few strips at a time under a lock.
-  constexpr std::size_t kStripsAtOnce = 2;
+  // Threads that have helped each other with a tile add theirs to the same words under a lock.
   const auto strips = static_cast<std::size_t>(canvas.mask_.strips().count);
   const std::size_t groups = divided_up(strips, kStripsAtOnce);
   for (std::size_t i = 0; i < groups; ++i) {
     const std::size_t group = (i + canvas.number_) % groups;
     auto& lock = memory_.locks[(static_cast<std::size_t>(canvas.tile_) * groups + group) % memory_.locks.size()];
     const tbb::spin_mutex::scoped_lock locked(lock.mutex);
-    canvas.mask_.add_to(mask_, group * kStripsAtOnce, std::min((group + 1) * kStripsAtOnce, strips));
+    fast_.move_strips(canvas.mask_, mask_, group * kStripsAtOnce, std::min((group + 1) * kStripsAtOnce, strips));
   }
   canvas.tile_ = -1;
 }

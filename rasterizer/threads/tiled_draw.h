@@ -1,13 +1,15 @@
 // TiledDraw: one drawing as tasks: binning chunks of triangles, drawing parts of tiles, adding tiles to the mask.
 //
+// If there is but one tile, one thread draws into the target's mask itself, which needs neither to be cleared nor to be
+// added to anything: alone, it is as fast as without threads. The others draw into masks of their own, and when the
+// last part is drawn, all threads add these up, each another group of strips.
+//
 // A bin is what one chunk puts into one tile: a copy of those of its triangles that reach the tile, in their order.
 // Which do is found as bits, the way of Laine and Karras, "High-Performance Software Rasterization on GPUs" (2011): one
 // bit for every column and every row of tiles that a triangle's bounding box reaches; a tile's triangles are the
 // conjunction of its column's bits and its row's. Copies rather than indices, because whoever draws a tile would miss
 // the cache with almost every triangle: when a chunk is binned, its triangles are at hand. The bins of a chunk are
 // written by the one thread that bins it, in memory that only this chunk has, and only read after that.
-#pragma once
-
 #pragma once
 
 #include <tbb/spin_mutex.h>
@@ -49,7 +51,8 @@ class TiledDraw {
   /// A tile that a thread draws into, and triangles on their way there.
   class Canvas {
    public:
-    /// `number`: another one for each thread, so that they do not add to the same words at the same time.
+    /// `number`: another one for each thread, so that they do not add to the same words at the same time. Number 0
+    /// stands for the target's mask if there is but one tile; it should be for the thread that begins first.
     explicit Canvas(std::size_t number) : number_(number) {}
 
    private:
@@ -86,7 +89,8 @@ class TiledDraw {
   void draw(const Part& part, Canvas& canvas);
   std::size_t first_chunk(std::size_t part) const { return chunks_ * part / plan_.parts; }
 
-  /// Adds what `canvas` has to the mask, and leaves it without a tile.
+  /// Adds what `canvas` has to the mask, and leaves it without a tile. If there is but one tile: waits until all of it
+  /// is drawn, and then helps to add every canvas to the mask.
   void finish(Canvas& canvas);
 
  private:
@@ -94,6 +98,9 @@ class TiledDraw {
   void draw_bin(int tile, std::size_t chunk, Canvas& canvas) const;
   void draw_waiting(Canvas& canvas) const;
   void draw_in_order(std::span<const Triangle> triangles, Canvas& canvas) const;
+  void draw_whole(std::size_t chunk, Canvas& canvas);
+  void add_canvases();
+  bool in_place(const Canvas& canvas) const { return !binned() && canvas.number_ == 0; }
 
   const FastRasterizer& fast_;
   std::span<const Triangle> triangles_;
@@ -103,6 +110,13 @@ class TiledDraw {
   Memory& memory_;
   Agenda agenda_;
   alignas(64) std::atomic<std::size_t> next_to_bin_{0};
+
+  // Of a single tile: the canvases that are not in place and have been drawn into, and how many parts are drawn. A
+  // canvas is noted before its first part counts as drawn.
+  std::vector<Canvas*> apart_;
+  std::atomic<std::size_t> apart_count_{0};
+  alignas(64) std::atomic<std::size_t> drawn_{0};
+  alignas(64) std::atomic<std::size_t> next_to_add_{0};
 };
 
 }  // namespace edgecase::rasterizer

@@ -1,0 +1,88 @@
+#include "conformance/bench/whole_draws.h"
+
+#include <algorithm>
+#include <barrier>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "conformance/bench/clock.h"
+#include "conformance/bench/timing.h"
+#include "rasterizer/threads/threads.h"
+
+namespace edgecase::conformance {
+namespace {
+
+using Triangles = std::span<const rasterizer::FixedTriangle<rasterizer::Format16_8>>;
+
+double median(std::vector<double> values) { return statistics(std::move(values)).median; }
+
+void wait_awake(double ns) {
+  for (const double end = now() + ns; now() < end;) {
+  }
+}
+
+/// ns that a thread takes for `draws` draws if `together` of them do the same: the mean of them.
+double time_together(int together, const rasterizer::FastRasterizer& fast, Triangles triangles,
+                     const rasterizer::Target& target, std::size_t draws) {
+  std::vector<double> ns(static_cast<std::size_t>(together));
+  std::barrier ready(together);
+  {
+    std::vector<std::jthread> threads;
+    for (double& own_ns : ns) {
+      threads.emplace_back([&] {
+        const std::vector own(triangles.begin(), triangles.end());
+        rasterizer::StripMask mask(target);
+        const auto draw = [&] {
+          for (std::size_t i = 0; i < draws; ++i) fast.cover_union(own, mask);
+        };
+        draw();
+        ready.arrive_and_wait();
+        own_ns = time_of(draw);
+      });
+    }
+  }
+  double sum = 0;
+  for (const double own_ns : ns) sum += own_ns;
+  return sum / together;
+}
+
+}  // namespace
+
+WholeDraws time_whole_draws(int threads, const rasterizer::FastRasterizer& fast, Triangles triangles,
+                            const rasterizer::Target& target, std::size_t repetitions) {
+  rasterizer::ThreadedRasterizer threaded(fast, threads);
+  rasterizer::StripMask mask(target);
+  struct Times {
+    std::vector<double> wall, cpu;
+  };
+  const auto time_draw = [&](Times& times, const auto& draw) {
+    mask.clear();
+    double wall = 0;
+    times.cpu.push_back(time_of([&] { wall = time_of(draw); }, CLOCK_PROCESS_CPUTIME_ID));
+    times.wall.push_back(wall);
+  };
+  const auto draw_alone = [&] { fast.cover_union(triangles, mask); };
+  const auto draw_threaded = [&] { threaded.cover_union(triangles, mask); };
+  draw_alone();
+  const double about = time_of(draw_alone);
+  const auto more = static_cast<std::size_t>(std::clamp(5e6 / about, 1.0, 20.0));
+  Times one, awake, asleep;
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < repetitions * more; ++i) {
+    // Longer than threads wait for work, while this one's processor stays awake.
+    wait_awake(500'000);
+    time_draw(asleep, draw_threaded);
+    time_draw(awake, draw_threaded);
+    draw_alone();  // so that the next one, too, follows one of its kind
+    time_draw(one, draw_alone);
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(repetitions, 5); ++i) {
+    const double alone = time_together(1, fast, triangles, target, 2 * more);
+    apart.push_back(threads * alone / time_together(threads, fast, triangles, target, 2 * more));
+  }
+  const double wall = median(one.wall);
+  return {wall / median(awake.wall), wall / median(asleep.wall), median(awake.cpu) / median(one.cpu), median(apart)};
+}
+
+}  // namespace edgecase::conformance
