@@ -6,8 +6,9 @@
 //
 // What the model leaves out:
 //   - cache lines that move between processors: a helper's mask is added up by all threads, so half of its lines, and
-//     as many of the target's, are in another one's cache; measured at 2 to 5 ns each, 10 us for a screen's mask of
-//     4,200 lines. It weighs on draws of a few hundred us; a mask shared by many threads moves more of it;
+//     as many of the target's, are in another one's cache. Two threads that did nothing else took some 10 us for a
+//     screen's mask of 4,200 lines. It weighs on draws of a few hundred us; a mask shared by many threads moves more of
+//     it;
 //   - bandwidth that processors share, of the last-level cache and the memory: who draws into a large target alone may
 //     already use most of it;
 //   - clocks that fall as more processors work, and neighbours on the same machine: what `apart` shows;

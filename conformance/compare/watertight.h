@@ -57,8 +57,8 @@ class WatertightChecker {
   void scan_edge(const OutlineEdge& edge, int turn, const SampleLocation& location, std::size_t sample);
   /// Sets all winding numbers to 0, with room for what the edges may add.
   void reset_windings(std::span<const OutlineEdge> outline);
-  /// Adds `winding`, at least -2 and at most 2, to the samples in `pattern` from `first_bit` of a row on: to those right
-  /// of an edge of the outline, or on it.
+  /// Adds `winding`, at least -2 and at most 2, to the samples in `pattern` from `first_bit` of a row on: to those
+  /// right of an edge of the outline, or on it.
   void add_winding(std::size_t row, std::size_t first_bit, int winding, const std::uint64_t* pattern);
   /// Fills inside_; returns false if a winding number is neither 0 nor 1.
   bool fill_inside();
@@ -73,11 +73,11 @@ class WatertightChecker {
   OutlineBuilder builder_;
   std::vector<std::uint64_t> sample_words_;  ///< for each sample, one row with the bits of that sample set
   std::vector<std::uint64_t> drawn_;         ///< those that the scissor leaves
-  /// Each sample's winding number, in binary: digit p of all of them is mask p, a plane. Planes that are rarely used are
-  /// zero between meshes.
+  /// Each sample's winding number, in binary: digit p of all of them is mask p, a plane. Planes that are rarely used
+  /// are zero between meshes.
   std::vector<std::uint64_t> windings_;
-  std::size_t planes_ = 0;          ///< of the present mesh
-  std::size_t touched_planes_ = 0;  ///< of these, those that may differ from what reset_windings left
+  std::size_t planes_ = 0;              ///< of the present mesh
+  std::size_t touched_planes_ = 0;      ///< of these, those that may differ from what reset_windings left
   std::vector<std::uint64_t> inside_;   ///< winding number 1; says nothing where outline_ is set
   std::vector<std::uint64_t> outline_;  ///< exactly on the outline
   std::vector<std::uint64_t> once_;     ///< covered by one triangle or more

@@ -24,7 +24,8 @@ inline std::int64_t orientation(const LatticePoint& a, const LatticePoint& b, co
 class Lattice {
  public:
   /// `bits` at least 1, so that pixel centres are lattice points.
-  Lattice(const Extent& target, int bits) : target_(target), bits_(bits), unit_(1.0f / static_cast<float>(std::int64_t{1} << bits)) {}
+  Lattice(const Extent& target, int bits)
+      : target_(target), bits_(bits), unit_(1.0f / static_cast<float>(std::int64_t{1} << bits)) {}
 
   std::int64_t pixel() const { return std::int64_t{1} << bits_; }
   std::int64_t half_pixel() const { return pixel() / 2; }

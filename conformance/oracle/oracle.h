@@ -17,9 +17,9 @@ namespace edgecase::conformance::oracle {
 /// edge functions are positive there, or zero on an edge that is a top or a left edge. Writes every word of `mask`.
 void cover_by_definition(const Setting& setting, const Rules& rules, const Triangle& triangle, MutableMaskView mask);
 
-/// By infinitesimal shift, in checked integers: the sample moved by (e, e^2), e -> 0, lies on no edge; it is covered if it
-/// lies inside. Solved row by row for the half-open interval between the two edges that the moved row crosses. Writes
-/// every word of `mask`.
+/// By infinitesimal shift, in checked integers: the sample moved by (e, e^2), e -> 0, lies on no edge; it is covered if
+/// it lies inside. Solved row by row for the half-open interval between the two edges that the moved row crosses.
+/// Writes every word of `mask`.
 void cover_by_shift(const Setting& setting, const Rules& rules, const Triangle& triangle, MutableMaskView mask);
 
 /// Where the rules snap a position to.

@@ -26,7 +26,8 @@ bool all_without(std::span<const Triangle> triangles, Fault fault) {
   return found == 0;
 }
 
-/// Whether the magnitude of every coordinate is 0 or from `least` to `most`, none of them NaN. Not if `most` is below 0.
+/// Whether the magnitude of every coordinate is 0 or from `least` to `most`, none of them NaN. Not if `most` is below
+/// 0.
 inline bool all_within(std::span<const Triangle> triangles, float most, float least = 0) {
   // Magnitudes of binary32 compare as their bit patterns do, infinity and NaN above all others. A difference of two is
   // negative where the first is less.
