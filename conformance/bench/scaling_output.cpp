@@ -20,7 +20,7 @@ std::vector<std::string> workloads_of(std::span<const ScalingPoint> points) {
 
 constexpr std::string_view kAbout =
     "Tasks timed one by one on one thread, played through the threads' own agenda; rings are measured.\\n"
-    "A line bends where starting other threads (5 us, and 0.5 us each) and adding up their masks weigh as much as\\n"
+    "A line bends where starting other threads (0.5 us each) and adding up their masks weigh as much as\\n"
     "a thread's share of the draw, and ends flat where the plan takes no more of them. Above the ideal: a target\\n"
     "beyond the caches, whose tiles fit. Not in the model: cache lines and bandwidth that threads share.";
 
