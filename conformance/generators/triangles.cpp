@@ -6,11 +6,12 @@
 namespace edgecase::conformance::families {
 namespace {
 
-// Two points in either order, by look-up: no processor could predict a branch.
+// Two points in either order, exchanged or not by their differing bits: no processor could predict a branch, and a
+// look-up would wait until both are written.
 std::array<LatticePoint, 2> in_any_order(Random& random, const LatticePoint& a, const LatticePoint& b) {
-  const std::array points{a, b};
-  const std::size_t first = random.one_in(2) ? 1 : 0;
-  return {points[first], points[1 - first]};
+  const std::int64_t exchanged = random.one_in(2) ? ~std::int64_t{0} : 0;
+  const LatticePoint change{(a.x ^ b.x) & exchanged, (a.y ^ b.y) & exchanged};
+  return {LatticePoint{a.x ^ change.x, a.y ^ change.y}, LatticePoint{b.x ^ change.x, b.y ^ change.y}};
 }
 
 // Either winding and every rotation comes up: no generator that uses this favours an order of vertices.

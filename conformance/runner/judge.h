@@ -58,7 +58,8 @@ struct Finding {
 /// What came of one subject on one case or generator. Sums up over batches.
 struct Outcome {
   Comparison triangles;
-  Watertightness meshes;
+  Watertightness meshes;              ///< of those checked
+  std::uint64_t agreed_meshes = 0;    ///< of these, one in kMeshShare was checked
   Cracks cracks;                      ///< of meshes in clip space
   std::uint64_t known_triangles = 0;  ///< wrong as predicted
   std::uint64_t unpredicted = 0;      ///< in clip space beyond the reach of the model; not compared
@@ -68,6 +69,12 @@ struct Outcome {
   /// The first few of each kind.
   std::vector<Finding> findings;
 };
+
+/// One in this many meshes of batches that are as the rules have them is checked as a mesh, too; of all other batches,
+/// every one. Where each mask is that of the top-left rule, a mesh is watertight because the rule makes it so: what its
+/// check can still find is a fault that the subject and our reference have in common. The oracles look for those in one
+/// of kOracleShare triangles; this looks in many more, in another way, and without a rule.
+inline constexpr std::uint64_t kMeshShare = 16;
 
 class Judge {
  public:

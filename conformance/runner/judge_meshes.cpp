@@ -17,6 +17,7 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
   WatertightChecker checker(scene.setting, scene.rules.subpixel_bits);
   const bool snapped_already = all_on_grid(scene.triangles, scale);
   for (const Mesh& mesh : scene.meshes) {
+    if (agreed_ && outcome.agreed_meshes++ % kMeshShare != 0) continue;
     snapped_.resize(std::max(snapped_.size(), mesh.count));
     const auto snap = [&](const auto& to_grid) {
       for (std::size_t i = 0; i < mesh.count; ++i) {
