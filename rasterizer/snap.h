@@ -67,14 +67,18 @@ template <class F>
   // do. Below 2^24, so that all of the format's integers up to there are binary32.
   constexpr auto kScale = static_cast<float>(std::int64_t{1} << F::kSubpixelBits);
   constexpr auto kLimit = std::bit_cast<std::uint32_t>(static_cast<float>(1 << (std::min(F::kBits, 25) - 1)));
+  // Whole groups are read where they are; the last one, if it is less, among zeros.
+  Triangle last[kAtOnce] = {};
   for (std::size_t first = 0; first < triangles.size(); first += kAtOnce) {
     const std::size_t count = std::min(kAtOnce, triangles.size() - first);
-    float pixels[kAtOnce * kCoordinates] = {};
+    if (count < kAtOnce) std::copy_n(&triangles[first], count, last);
+    const auto* pixels = reinterpret_cast<const std::byte*>(count < kAtOnce ? last : &triangles[first]);
     std::int32_t whole[kAtOnce * kCoordinates];
-    std::memcpy(pixels, &triangles[first], count * sizeof(Triangle));
     std::uint32_t off_grid = 0;
     for (std::size_t i = 0; i < kAtOnce * kCoordinates; ++i) {
-      const auto scaled = std::bit_cast<std::uint32_t>(pixels[i] * kScale);
+      float pixel;
+      std::memcpy(&pixel, pixels + i * sizeof pixel, sizeof pixel);
+      const auto scaled = std::bit_cast<std::uint32_t>(pixel * kScale);
       const std::uint32_t in_range = (scaled & 0x7fffffff) < kLimit ? ~std::uint32_t{0} : 0;
       whole[i] = static_cast<std::int32_t>(std::bit_cast<float>(scaled & in_range));
       off_grid |= std::bit_cast<std::uint32_t>(static_cast<float>(whole[i])) ^ scaled;  // of -0, too: rare

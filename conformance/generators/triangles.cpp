@@ -6,11 +6,15 @@
 namespace edgecase::conformance::families {
 namespace {
 
-// Two points in either order, by look-up: no processor could predict a branch.
+// `a` or `b` by their differing bits: no processor could predict a branch on what was drawn.
+std::int64_t choose(bool first, std::int64_t a, std::int64_t b) { return b ^ ((a ^ b) & -std::int64_t{first}); }
+LatticePoint choose(bool first, const LatticePoint& a, const LatticePoint& b) {
+  return {choose(first, a.x, b.x), choose(first, a.y, b.y)};
+}
+
 std::array<LatticePoint, 2> in_any_order(Random& random, const LatticePoint& a, const LatticePoint& b) {
-  const std::array points{a, b};
-  const std::size_t first = random.one_in(2) ? 1 : 0;
-  return {points[first], points[1 - first]};
+  const bool exchanged = random.one_in(2);
+  return {choose(exchanged, b, a), choose(exchanged, a, b)};
 }
 
 // Either winding and every rotation comes up: no generator that uses this favours an order of vertices.
@@ -122,9 +126,10 @@ void near_corner(const Lattice& lattice, Random& random, Scene& scene) {
 }
 
 void tiny(const Lattice& lattice, Random& random, Scene& scene) {
-  const LatticePoint middle =
-      random.one_in(4) ? lattice.anywhere(random, 0) : lattice.to_centre(lattice.anywhere(random, 0));
-  const std::int64_t reach = random.one_in(2) ? 2 : lattice.half_pixel();
+  const bool off_centre = random.one_in(4);
+  const LatticePoint place = lattice.anywhere(random, 0);
+  const LatticePoint middle = choose(off_centre, place, lattice.to_centre(place));
+  const std::int64_t reach = choose(random.one_in(2), 2, lattice.half_pixel());
   const auto near = [&] {
     return LatticePoint{middle.x + random.between(-reach, reach), middle.y + random.between(-reach, reach)};
   };

@@ -62,6 +62,9 @@ struct Result {
   std::uint64_t missing = 0;
   std::uint64_t unexpected = 0;
   std::uint64_t doubled = 0;
+  /// Meshes in the window that were looked at as a whole: those drawn together with a wrong triangle, and a share of
+  /// the others. In the rest, whose triangles are right one by one, no hole or double was looked for.
+  std::uint64_t meshes_checked = 0;
   std::uint64_t known_triangles = 0;  ///< triangles that are wrong as a known deviation says
   std::uint64_t unpredicted = 0;      ///< triangles not compared, because no model says what the subject has to cover
   std::uint64_t may = 0;  ///< samples that the rules leave open, covered otherwise than by rounding to nearest even and

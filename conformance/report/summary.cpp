@@ -44,6 +44,7 @@ void Totals::add(const Result& result) {
   unexpected += result.unexpected;
   doubled += result.doubled;
   may += result.may;
+  meshes_checked += result.meshes_checked;
   known_triangles += result.known_triangles;
   unpredicted += result.unpredicted;
   cracks.add(result.cracks);

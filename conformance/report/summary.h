@@ -20,6 +20,7 @@ struct Totals {
   std::uint64_t missing = 0;
   std::uint64_t unexpected = 0;
   std::uint64_t doubled = 0;
+  std::uint64_t meshes_checked = 0;
   std::uint64_t may = 0;
   std::uint64_t known_triangles = 0;
   std::uint64_t unpredicted = 0;

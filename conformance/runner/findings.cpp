@@ -202,6 +202,7 @@ Result describe_result(const RunResult& run, const RunPlan& plan) {
   result.missing = outcome.triangles.missing;
   result.unexpected = outcome.triangles.unexpected;
   result.doubled = outcome.meshes.doubled;
+  result.meshes_checked = outcome.meshes.meshes - outcome.meshes.folded_meshes;
   result.known_triangles = outcome.known_triangles;
   result.unpredicted = outcome.unpredicted;
   result.may = outcome.may;

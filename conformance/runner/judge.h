@@ -58,7 +58,8 @@ struct Finding {
 /// What came of one subject on one case or generator. Sums up over batches.
 struct Outcome {
   Comparison triangles;
-  Watertightness meshes;
+  Watertightness meshes;              ///< of those checked
+  std::uint64_t agreed_meshes = 0;    ///< of these, one in kMeshShare was checked
   Cracks cracks;                      ///< of meshes in clip space
   std::uint64_t known_triangles = 0;  ///< wrong as predicted
   std::uint64_t unpredicted = 0;      ///< in clip space beyond the reach of the model; not compared
@@ -68,6 +69,12 @@ struct Outcome {
   /// The first few of each kind.
   std::vector<Finding> findings;
 };
+
+/// One in this many meshes of batches that are as the rules have them is checked as a mesh, too; of all other batches,
+/// every one. Where each mask is that of the top-left rule, a mesh is watertight because the rule makes it so: what its
+/// check can still find is a fault that the subject and our reference have in common. The oracles look for those in one
+/// of kOracleShare triangles; this looks in many more, in another way, and without a rule.
+inline constexpr std::uint64_t kMeshShare = 16;
 
 class Judge {
  public:
@@ -91,27 +98,24 @@ class Judge {
   tl::expected<void, Error> compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// The masks that the last batch should have.
   MaskBatchView expected() const { return agreed_ ? observed_ : MaskBatchView(expected_); }
-  tl::expected<void, Error> grant_choices(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
-  /// By the other method.
-  tl::expected<void, Error> confirm_choices(const Batch& batch, std::size_t triangle, MaskView asked, MaskView must,
-                                            MaskView may) const;
   tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
-  void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the known deviation may concern that triangle of the scene last given to the reference.
   bool may_deviate(const Scene& scene, std::size_t triangle) const;
-  void judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);
+  void predict_clipped(std::size_t triangle);
+
+  // In judge_meshes.cpp.
+  void judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+  void judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
+
+  // In judge_findings.cpp.
   void add_finding(const Batch& batch, std::size_t first, std::size_t count, const WrongSample& wrong, bool known,
                    Outcome& outcome) const;
-
-  void predict_clipped(std::size_t triangle);
-  void show_clipped(std::size_t first, std::size_t count, Finding& finding) const;
-  /// The generator's scene number of that triangle of the batch.
-  static std::uint64_t part_of(const Batch& batch, std::size_t triangle);
   /// `inside` is what has to be covered once.
   void add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& wrong, MaskView inside, bool known,
                  Outcome& outcome) const;
+  void show_clipped(std::size_t first, std::size_t count, Finding& finding) const;
 
   Subject& subject_;
   Reference& reference_;

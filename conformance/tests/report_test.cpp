@@ -102,17 +102,17 @@ TEST(JsonReport, HasEveryKeyInTheDesignsOrder) {
   for (const auto& result : root["results"]) {
     EXPECT_THAT(keys(result),
                 ElementsAre("subject", "device", "snap", "case", "category", "verdict", "triangles", "samples_compared",
-                            "missing", "unexpected", "doubled", "known_triangles", "unpredicted", "may", "cracks",
-                            "first", "reason", "seconds", "subject_seconds"));
+                            "missing", "unexpected", "doubled", "meshes_checked", "known_triangles", "unpredicted",
+                            "may", "cracks", "first", "reason", "seconds", "subject_seconds"));
   }
   EXPECT_THAT(keys(root["totals"]),
               ElementsAre("pass", "fail", "known", "skip", "triangles", "samples_compared", "missing", "unexpected",
-                          "doubled", "known_triangles", "unpredicted", "may", "cracks", "seconds"));
+                          "doubled", "meshes_checked", "known_triangles", "unpredicted", "may", "cracks", "seconds"));
   ASSERT_EQ(root["categories"].size(), 3u);
   for (const auto& category : root["categories"]) {
     EXPECT_THAT(keys(category), ElementsAre("subject", "category", "pass", "fail", "known", "skip", "triangles",
-                                            "samples_compared", "missing", "unexpected", "doubled", "known_triangles",
-                                            "unpredicted", "may", "cracks", "causes"));
+                                            "samples_compared", "missing", "unexpected", "doubled", "meshes_checked",
+                                            "known_triangles", "unpredicted", "may", "cracks", "causes"));
   }
   EXPECT_THAT(keys(root["results"][1]["first"]),
               ElementsAre("kind", "triangle", "x", "y", "sample", "text", "vertices", "command"));
@@ -125,7 +125,7 @@ TEST(JsonReport, KeepsEveryValue) {
   EXPECT_EQ(root["results"][0], json::parse(R"j({
       "subject": "lavapipe", "device": "llvmpipe (LLVM 15.0.6, 256 bits)", "snap": null, "case": "cases/a.json", "category": "edges",
       "verdict": "pass", "triangles": 4, "samples_compared": 1024, "missing": 0, "unexpected": 0, "doubled": 0,
-      "known_triangles": 0, "unpredicted": 0, "may": 0,
+      "meshes_checked": 0, "known_triangles": 0, "unpredicted": 0, "may": 0,
       "cracks": {"meshes": 0, "torn_meshes": 0, "samples_inside": 0, "holes": 0, "doubled": 0, "first": null},
       "first": null, "reason": null, "seconds": 0.25, "subject_seconds": 0.125
 })j"));
@@ -136,16 +136,18 @@ TEST(JsonReport, KeepsEveryValue) {
       "vertices": [["0x1.8p+0", "0x0p+0"], ["0x1.8p+0", "0x1.8p+1"], ["0x1p+2", "0x1.8p+1"]],
       "command": "edgecase run 'left edge.json' --subject softpipe"})j"));
   EXPECT_EQ(root["results"][2]["verdict"], "known");
+  EXPECT_EQ(root["results"][2]["meshes_checked"], 3);
   EXPECT_EQ(root["results"][2]["known_triangles"], 1);
   EXPECT_EQ(root["results"][3]["verdict"], "skip");
   EXPECT_EQ(root["results"][3]["reason"], "16 samples are not supported");
   EXPECT_EQ(root["totals"], json::parse(R"j({
       "pass": 1, "fail": 1, "known": 1, "skip": 1, "triangles": 12, "samples_compared": 3072, "missing": 3,
-      "unexpected": 1, "doubled": 2, "known_triangles": 1, "unpredicted": 0, "may": 0, "cracks": 0, "seconds": 1.5})j"));
+      "unexpected": 1, "doubled": 2, "meshes_checked": 3, "known_triangles": 1, "unpredicted": 0,
+      "may": 0, "cracks": 0, "seconds": 1.5})j"));
   EXPECT_EQ(root["categories"][2], json::parse(R"j({
       "subject": "softpipe", "category": "edges", "pass": 0, "fail": 1, "known": 1, "skip": 0, "triangles": 8,
-      "samples_compared": 2048, "missing": 3, "unexpected": 1, "doubled": 2, "known_triangles": 1, "unpredicted": 0,
-      "may": 0, "cracks": 0, "causes": [{"verdict": "known", "reason": "breaks ties to the right", "cases": 1}]})j"));
+      "samples_compared": 2048, "missing": 3, "unexpected": 1, "doubled": 2, "meshes_checked": 3,
+      "known_triangles": 1, "unpredicted": 0, "may": 0, "cracks": 0, "causes": [{"verdict": "known", "reason": "breaks ties to the right", "cases": 1}]})j"));
 }
 
 TEST(JsonReport, TakesAnyBytes) {

@@ -1,0 +1,60 @@
+// Which meshes are checked as a whole, and what that finds when the reference itself is wrong.
+#include "conformance/runner/judge.h"
+
+#include <gtest/gtest.h>
+
+#include "conformance/generators/generator.h"
+#include "conformance/subjects/registry.h"
+
+namespace edgecase::conformance {
+namespace {
+
+Batch meshes_of(const char* name, std::size_t count) {
+  const Generator& generator = *find_generator(name);
+  Batch batch;
+  batch.scene.setting = generator.setting;
+  for (std::uint64_t i = 0; batch.scene.meshes.size() < count; ++i) {
+    batch.parts.push_back({i, triangle_count(batch.scene)});
+    append_scene(generator, 1, i, batch.scene);
+  }
+  return batch;
+}
+
+Outcome judged(const Batch& batch, const char* drawing, const char* judging, std::size_t batches = 1) {
+  const auto subject = make_subject(drawing).value();
+  Reference reference(make_subject(judging).value());
+  Judge judge(*subject, reference, nullptr);
+  Outcome outcome;
+  // From triangle 1 on, so that the oracles' first share comes late.
+  for (std::size_t i = 0; i < batches; ++i) EXPECT_TRUE(judge.judge(batch, 1, outcome));
+  return outcome;
+}
+
+TEST(JudgedMeshes, AreAShareOfThoseThatAgree) {
+  const Batch batch = meshes_of("grid", 3 * kMeshShare + 1);
+  EXPECT_EQ(judged(batch, "edgecase", "edgecase").meshes.meshes, 4U);
+  const Outcome twice = judged(batch, "edgecase", "edgecase", 2);
+  EXPECT_EQ(twice.agreed_meshes, 2 * batch.scene.meshes.size());
+  EXPECT_EQ(twice.meshes.meshes, 7U);  // the share goes on from batch to batch
+}
+
+TEST(JudgedMeshes, AreAllOfABatchThatDiffers) {
+  const Batch batch = meshes_of("triangulation", 20);
+  const Outcome outcome = judged(batch, "fault:slanted-left-exclusive", "edgecase");
+  EXPECT_GT(outcome.triangles.wrong_triangles, 0U);
+  EXPECT_LT(outcome.triangles.wrong_triangles, batch.scene.triangles.size());
+  EXPECT_EQ(outcome.meshes.meshes, 20U);
+}
+
+// Every mask is as expected, and what is expected is wrong.
+TEST(JudgedMeshes, ShowAFaultOfTheReference) {
+  const Batch batch = meshes_of("fan", 3);
+  ASSERT_LT(batch.scene.triangles.size(), kOracleShare - 1);
+  const Outcome outcome = judged(batch, "fault:all-exclusive", "fault:all-exclusive");
+  EXPECT_EQ(outcome.triangles.wrong_triangles, 0U);
+  EXPECT_GT(outcome.meshes.missing, 0U);
+  EXPECT_GT(outcome.unexplained, 0U);
+}
+
+}  // namespace
+}  // namespace edgecase::conformance
