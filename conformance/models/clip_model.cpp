@@ -195,7 +195,9 @@ struct Outline {
   std::size_t size = 0;
 };
 
-bool append_fan(const TransformModel& model, const Outline& outline, std::vector<WindowTriangle>& out) {
+// `first_goes_last`: what turn_before_snap() is asked of has the fan's first vertex last.
+bool append_fan(const TransformModel& model, const Outline& outline, bool first_goes_last,
+                std::vector<WindowTriangle>& out) {
   const std::size_t before = out.size();
   for (std::size_t i = 2; i < outline.size; ++i) {
     const auto part_of = [i](const auto& vertices) { return Triangle{vertices[0], vertices[i - 1], vertices[i]}; };
@@ -204,7 +206,9 @@ bool append_fan(const TransformModel& model, const Outline& outline, std::vector
       out.resize(before);
       return false;
     }
-    if (turn_of(part) != Turn::none) out.push_back({part, turn_before_snap(part_of(outline.before_snap))});
+    Triangle before_snap = part_of(outline.before_snap);
+    if (first_goes_last) std::ranges::rotate(before_snap, before_snap.begin() + 1);
+    if (turn_of(part) != Turn::none) out.push_back({part, turn_before_snap(before_snap)});
   }
   return true;
 }
@@ -219,9 +223,8 @@ std::optional<Polygon> clipped(const TransformModel& model, float shrink, const 
   unsigned all = ~0U;
   Polygon polygon;
   for (const ClipPosition& p : triangle) {
-    const unsigned code = outcode(model, shrink, p);
-    any |= code;
-    all &= code;
+    any |= outcode(model, shrink, p);
+    all &= outcode(model, 1, p);  // guard bands save nothing that is outside as a whole
     polygon.add({p, true});
   }
   if (all != 0) return Polygon{};
@@ -272,7 +275,9 @@ std::optional<Turn> append_window_triangles(const TransformModel& model, const S
     }
     turn = turn_in_binary32(unclipped, triangle);
   }
-  if (!append_fan(model, outline, out)) return std::nullopt;
+  // A triangle that nothing is cut off keeps its order.
+  const bool first_goes_last = model.fan_ends_with_first && leaves_view_volume(model, triangle);
+  if (!append_fan(model, outline, first_goes_last, out)) return std::nullopt;
   return turn;
 }
 

@@ -70,6 +70,7 @@ constexpr TransformModel kLavapipe{
     .winding = Winding::exact,
     .fill = Fill::each,
     .also_culls = 1365,  // what its draw module has at once: 4,095 vertices
+    .fan_ends_with_first = false,
     .viewport_scissor = true,
     .loose_multisample_scissor = true,
 };
@@ -78,6 +79,7 @@ constexpr TransformModel osmesa() {
   TransformModel model = kLavapipe;
   model.name = "osmesa-llvmpipe";
   model.depth = DepthRange::minus_w_to_w;
+  model.fan_ends_with_first = true;
   model.viewport_scissor = false;
   return model;
 }
@@ -105,6 +107,7 @@ constexpr TransformModel kSwiftshader{
     .winding = Winding::binary32_before_clipping,
     .fill = Fill::outline,
     .also_culls = 0,
+    .fan_ends_with_first = false,
     .viewport_scissor = false,
     .loose_multisample_scissor = false,
 };

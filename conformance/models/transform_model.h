@@ -90,6 +90,9 @@ struct TransformModel {
   /// Where culling is asked for, triangles are culled a second time, by their binary32 area before the snap, if one of
   /// them is outside a plane: so many together, counted from the first of the draw. 1: each by itself; 0: none are.
   std::size_t also_culls = 0;
+  /// Of what clipping left, that area is computed of each triangle's vertices with the fan's first one last, as where
+  /// the last vertex is the provoking one: rounding may turn a sliver over.
+  bool fan_ends_with_first = false;
   /// Pixels are drawn only from (int)(low + 0.499) to (int)(high - 0.501), low and high being the viewport's ends.
   bool viewport_scissor = false;
   /// The longest extent of a triangle in x or y, in pixels, for which the coverage is known to be exact.

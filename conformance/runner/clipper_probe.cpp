@@ -59,7 +59,8 @@ void flatten(ClipTriangle& triangle) {
 
 bool same_but_for_positions(const TransformModel& a, const TransformModel& b) {
   return a.viewport_scissor == b.viewport_scissor && a.loose_multisample_scissor == b.loose_multisample_scissor &&
-         a.winding == b.winding && a.fill == b.fill && a.also_culls == b.also_culls;
+         a.winding == b.winding && a.fill == b.fill && a.also_culls == b.also_culls &&
+         a.fan_ends_with_first == b.fan_ends_with_first;
 }
 
 // What clipping leaves in the window of a triangle that can be changed a little.

@@ -189,8 +189,11 @@ class ClipperSearch {
     if (model.winding != Winding::exact) return;
     candidates_.clear();
     for (const std::size_t together : {lavapipe_model().also_culls, std::size_t{0}, std::size_t{1}, kWholeDraw}) {
-      candidates_.push_back(model);
-      candidates_.back().also_culls = together;
+      for (const bool other_order : {false, true}) {
+        candidates_.push_back(model);
+        candidates_.back().also_culls = together;
+        candidates_.back().fan_ends_with_first = model.fan_ends_with_first != other_order;
+      }
     }
     ClipScenes scenes = culled_slivers(arrangements_.front().rules, 3 * lavapipe_model().also_culls);
     std::erase_if(scenes, [&](const Scene& scene) { return subject_.refusal(scene).has_value(); });

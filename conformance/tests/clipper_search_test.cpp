@@ -19,7 +19,7 @@ bool same_clipper(const TransformModel& a, const TransformModel& b) {
   return a.depth == b.depth && a.shrink == b.shrink && a.multisample_shrink == b.multisample_shrink &&
          a.planes == b.planes && a.interpolation == b.interpolation && a.viewport_scissor == b.viewport_scissor &&
          a.loose_multisample_scissor == b.loose_multisample_scissor && a.winding == b.winding && a.fill == b.fill &&
-         a.also_culls == b.also_culls;
+         a.also_culls == b.also_culls && (a.also_culls == 0 || a.fan_ends_with_first == b.fan_ends_with_first);
 }
 
 std::string described(const TransformModel& m) {

@@ -94,6 +94,8 @@ TEST(ClipModel, CutsAtTheBorderAndFansFromTheFirstVertex) {
 
 TEST(ClipModel, OutsideOfOnePlaneNothingIsLeft) {
   EXPECT_TRUE(windows(lavapipe_model(), {{{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 9, 0, 1}}}).empty());
+  // Nor in the guard band.
+  EXPECT_TRUE(windows(lavapipe_bgra8_model(), {{{1.25F, 0, 0, 1}, {1.5F, 0, 0, 1}, {1.25F, 0.5F, 0, 1}}}).empty());
 }
 
 // z = -1/2 lies behind Vulkan's near plane and before OpenGL's.
