@@ -184,6 +184,7 @@ class ClipperSearch {
     return ab_fits ? a : b;
   }
 
+  // Whether, and how many of a draw together, it culls a second time; SwiftShader's winding leaves no room for that.
   void find_culled_together() {
     const TransformModel model = candidates_.front();
     if (model.winding != Winding::exact) return;
