@@ -1,4 +1,5 @@
 // The first triangle that covers each sample: every triangle is drawn by itself, and what is new of it gets its number.
+#include "rasterizer/fast/strip_box.h"
 #include "rasterizer/fast/union-inl.h"
 
 #if defined(EDGECASE_FAST_FIRST_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -27,22 +28,6 @@ HWY_INLINE void number_columns(std::uint32_t bits, std::uint32_t number, std::ui
     hn::StoreU(hn::IfThenElse(set, numbers, hn::LoadU(d, to + column)), d, to + column);
   }
 }
-
-/// Strips and rows of a target that hold the samples of a triangle.
-struct StripBox {
-  int first_strip, end_strip, top, bottom;
-
-  StripBox(const FixedTriangle<ShiftedFormat>& triangle, int width, int height) {
-    const auto& [v0, v1, v2] = triangle;
-    const auto [left, right] = std::minmax({v0.x.value(), v1.x.value(), v2.x.value()});
-    const auto [upper, lower] = std::minmax({v0.y.value(), v1.y.value(), v2.y.value()});
-    const auto first_in = [](int v, int extent) { return std::clamp((v + 127) >> 8, 0, extent); };
-    first_strip = first_in(left, width) / kStripWidth;
-    end_strip = (first_in(right, width) + kStripWidth - 1) / kStripWidth;
-    top = first_in(upper, height);
-    bottom = first_in(lower, height);
-  }
-};
 
 /// Takes a triangle from `own`, which it clears, into what is covered, and numbers what is new. `columns(strip)`: those
 /// that may be drawn into.
