@@ -15,6 +15,9 @@ struct StripBox {
   /// All of a target.
   explicit StripBox(const Strips& strips) : first_strip(0), end_strip(strips.count), top(0), bottom(strips.height) {}
 
+  StripBox(int first_strip, int end_strip, int top, int bottom)
+      : first_strip(first_strip), end_strip(end_strip), top(top), bottom(bottom) {}
+
   StripBox(const FixedTriangle<ShiftedFormat>& triangle, int width, int height)
       : StripBox(triangle, PlaneShift{}, PlaneShift{}, width, height) {}
 
