@@ -22,7 +22,7 @@ rasterizer::Plan plan_for(const TaskCosts& costs, int threads, double least_help
   return {rasterizer::TileGrid(*rasterizer::Target::make(1'000, 1'000), tiles, 1),
           threads,
           1,
-          costs.parts.front().size(),
+          rasterizer::Parts::even(costs.parts.front().size(), costs.parts.front().size()),
           work,
           0,
           least_help};
@@ -86,12 +86,13 @@ TEST(Scaling, TheCommandWritesATableAndAPicture) {
 
 TEST(Scaling, OutputNamesWhatIsKnown) {
   const std::vector<ScalingPoint> points{
-      {"full", 200, 2, 2, 1, 4, 13, 1'000, 1'100, 600, 1.67, 1.4, WholeDraws{1.5, 1.3, 1.1, 1.95}},
+      {"full", 200, 2, 2, 1, 4, 13, 1'000, 1'100, 600, 1.67, 1.4, WholeDraws{1.5, 1.3, 1.1, 1.95, 120}},
       {"full", 200, 4, 4, 1, 4, 13, 1'000, 1'100, 300, 3.33}};
   const auto json = nlohmann::json::parse(scaling_json(points));
   EXPECT_EQ(json.at("points")[0].at("measured_speedup"), 1.5);
   EXPECT_TRUE(json["points"][1].at("measured_speedup").is_null());
-  EXPECT_THAT(scaling_table(points), testing::AllOf(HasSubstr("3.33x"), HasSubstr("-10 %"), HasSubstr("1.95x")));
+  EXPECT_THAT(scaling_table(points),
+              testing::AllOf(HasSubstr("3.33x"), HasSubstr("-10 %"), HasSubstr("1.95x"), HasSubstr("120 ns")));
   EXPECT_THAT(scaling_plot_program(points, "a.png"), testing::AllOf(HasSubstr("4 3.33\n"), HasSubstr("2 1.5\n")));
 }
 
