@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "conformance/bench/bench.h"
+#include "conformance/tests/temporary_folder.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -66,8 +67,7 @@ TEST(Scaling, APartWaitsForItsBinsAndForNoOthers) {
 }
 
 TEST(Scaling, TheCommandWritesATableAndAPicture) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "scaling_test";
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder folder;
   BenchOptions options;
   options.quick = true;
   options.scaling = folder.string();
@@ -77,7 +77,6 @@ TEST(Scaling, TheCommandWritesATableAndAPicture) {
   EXPECT_THAT(table, testing::AllOf(HasSubstr("large20k"), HasSubstr("wide200")));
   EXPECT_TRUE(std::filesystem::exists(folder / "scaling.json"));
   EXPECT_GT(std::filesystem::file_size(folder / "scaling.png"), 10'000u);
-  std::filesystem::remove_all(folder);
   options.scaling = "/proc/scaling";
   testing::internal::CaptureStderr();
   EXPECT_EQ(bench_command(options), 2);
