@@ -44,14 +44,14 @@ TaskCosts time_tasks(const rasterizer::FastRasterizer& fast, std::span<const Fix
     mask.clear();
     TiledDraw drawing(fast, triangles, plan, mask, memory);
     costs.bins.resize(drawing.binned() ? drawing.chunks() : 0, kNever);
-    costs.parts.resize(tiles, std::vector<double>(plan.parts, kNever));
+    costs.parts.resize(tiles, std::vector<double>(plan.parts.count(), kNever));
     for (std::size_t chunk = 0; chunk < costs.bins.size(); ++chunk) {
       time_into(costs.bins[chunk], [&] { drawing.bin(chunk); });
     }
     for (std::size_t t = 0; t < tiles; ++t) {
       const int tile = static_cast<int>(t);
       time_into(clear[t], [&] { tile_mask.begin(plan.grid.tile(tile)); });
-      for (std::size_t part = 0; part < plan.parts; ++part) {
+      for (std::size_t part = 0; part < plan.parts.count(); ++part) {
         time_into(costs.parts[t][part], [&] { drawing.draw({tile, part}, canvas); });
       }
       time_into(costs.tiles[t], [&] { drawing.finish(canvas); });
@@ -153,9 +153,10 @@ Schedule play(const TaskCosts& costs, const Plan& plan, double (*start)(int thre
     if (tile != thread.tile) finish(thread);
     thread.tile = tile;
     if (part) {
-      const std::size_t chunks = binned_at.size();
-      for (std::size_t c = chunks * part->number / plan.parts; c < chunks * (part->number + 1) / plan.parts; ++c) {
-        thread.time = std::max(thread.time, binned_at[c]);
+      if (!binned_at.empty()) {
+        for (std::size_t c = plan.parts.begin(part->number); c < plan.parts.begin(part->number + 1); ++c) {
+          thread.time = std::max(thread.time, binned_at[c]);
+        }
       }
       work(thread, costs.parts[static_cast<std::size_t>(tile)][part->number]);
     } else {

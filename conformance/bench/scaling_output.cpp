@@ -47,15 +47,17 @@ std::string scaling_json(std::span<const ScalingPoint> points) {
                     {"measured_speedup", measured(point, &WholeDraws::awake)},
                     {"measured_asleep", measured(point, &WholeDraws::asleep)},
                     {"measured_apart", measured(point, &WholeDraws::apart)},
-                    {"measured_cpu", measured(point, &WholeDraws::cpu)}});
+                    {"measured_cpu", measured(point, &WholeDraws::cpu)},
+                    {"line_ns", measured(point, &WholeDraws::line_ns)}});
   }
   return nlohmann::ordered_json{{"points", list}}.dump(2) + "\n";
 }
 
 std::string scaling_table(std::span<const ScalingPoint> points) {
-  constexpr auto kLine = "{:>9} {:>7} {:>4} {:>5} {:>6} {:>9} {:>9} {:>8} {:>8} {:>9} {:>8} {:>8} {:>7} {:>8}\n";
-  std::string text = fmt::format(kLine, "workload", "threads", "used", "tiles", "chunks", "tasks", "predicted",
-                                 "speed-up", "measured", "deviation", "asleep", "measured", "apart", "CPU time");
+  constexpr auto kLine = "{:>9} {:>7} {:>4} {:>5} {:>6} {:>9} {:>9} {:>8} {:>8} {:>9} {:>8} {:>8} {:>7} {:>8} {:>7}\n";
+  std::string text =
+      fmt::format(kLine, "workload", "threads", "used", "tiles", "chunks", "tasks", "predicted", "speed-up", "measured",
+                  "deviation", "asleep", "measured", "apart", "CPU time", "line");
   for (const ScalingPoint& point : points) {
     const auto measured = [&](double WholeDraws::*field) {
       return point.measured ? fmt::format("{:.2f}x", *point.measured.*field) : std::string();
@@ -67,11 +69,14 @@ std::string scaling_table(std::span<const ScalingPoint> points) {
         point.chunks, fmt::format("{:.0f} us", point.tasks_ns / 1e3),
         fmt::format("{:.0f} us", point.predicted_ns / 1e3), fmt::format("{:.2f}x", point.predicted_speedup),
         measured(&WholeDraws::awake), deviation, fmt::format("{:.2f}x", point.predicted_asleep),
-        measured(&WholeDraws::asleep), measured(&WholeDraws::apart), measured(&WholeDraws::cpu));
+        measured(&WholeDraws::asleep), measured(&WholeDraws::apart), measured(&WholeDraws::cpu),
+        point.measured ? fmt::format("{:.0f} ns", point.measured->line_ns) : std::string());
   }
   return text +
          "Speed-up: modelled, and measured on draws that follow each other; asleep: the same if threads must be "
-         "woken.\nApart: what threads reach that draw the same into masks of their own.\n";
+         "woken.\nApart: what threads reach that draw the same into masks of their own. Line: how long a cache line "
+         "takes "
+         "from one processor to another.\n";
 }
 
 std::string scaling_plot_program(std::span<const ScalingPoint> points, const std::string& path) {

@@ -1,6 +1,7 @@
 #include "conformance/bench/whole_draws.h"
 
 #include <algorithm>
+#include <atomic>
 #include <barrier>
 #include <thread>
 #include <utility>
@@ -47,6 +48,39 @@ double time_together(int together, const rasterizer::FastRasterizer& fast, Trian
   return sum / together;
 }
 
+/// Half of what two threads take to answer each other.
+double time_line() {
+  constexpr int kBatches = 40, kRounds = 50, kPatience = 10'000;
+  constexpr double kSpread = 10e6;  // until each has a processor to itself
+  struct alignas(64) Line {
+    std::atomic<int> said{0};
+  } line;
+  const auto wait_for = [&](int number) {
+    // Where another program has the processor, the other thread gets to answer only if this one gives way.
+    for (int i = 0; line.said.load(std::memory_order_acquire) != number; ++i) {
+      if (i > kPatience) std::this_thread::yield();
+    }
+  };
+  std::jthread other([&] {
+    wait_awake(kSpread);
+    for (int i = 0; i < kBatches * kRounds; ++i) {
+      wait_for(2 * i + 1);
+      line.said.store(2 * i + 2, std::memory_order_release);
+    }
+  });
+  wait_awake(kSpread);
+  std::vector<double> ns;
+  for (int round = 0; round < kBatches * kRounds;) {
+    ns.push_back(time_of([&] {
+      for (const int end = round + kRounds; round < end; ++round) {
+        line.said.store(2 * round + 1, std::memory_order_release);
+        wait_for(2 * round + 2);
+      }
+    }));
+  }
+  return median(ns) / (2 * kRounds);
+}
+
 }  // namespace
 
 WholeDraws time_whole_draws(int threads, const rasterizer::FastRasterizer& fast, Triangles triangles,
@@ -68,7 +102,7 @@ WholeDraws time_whole_draws(int threads, const rasterizer::FastRasterizer& fast,
   const double about = time_of(draw_alone);
   const auto more = static_cast<std::size_t>(std::clamp(5e6 / about, 1.0, 20.0));
   Times one, awake, asleep;
-  std::vector<double> apart;
+  std::vector<double> apart, line;
   for (std::size_t i = 0; i < repetitions * more; ++i) {
     // Longer than threads wait for work, while this one's processor stays awake.
     wait_awake(500'000);
@@ -80,9 +114,11 @@ WholeDraws time_whole_draws(int threads, const rasterizer::FastRasterizer& fast,
   for (std::size_t i = 0; i < std::min<std::size_t>(repetitions, 5); ++i) {
     const double alone = time_together(1, fast, triangles, target, 2 * more);
     apart.push_back(threads * alone / time_together(threads, fast, triangles, target, 2 * more));
+    line.push_back(time_line());
   }
   const double wall = median(one.wall);
-  return {wall / median(awake.wall), wall / median(asleep.wall), median(awake.cpu) / median(one.cpu), median(apart)};
+  return {wall / median(awake.wall), wall / median(asleep.wall), median(awake.cpu) / median(one.cpu), median(apart),
+          median(line)};
 }
 
 }  // namespace edgecase::conformance

@@ -8,7 +8,7 @@
 
 namespace edgecase::conformance {
 
-/// Speed-ups, each as a ratio of medians.
+/// Speed-ups, each as a ratio of medians, and what they depend on.
 struct WholeDraws {
   double awake;   ///< right after another such draw, when threads still wait for work
   double asleep;  ///< half a ms later, when they sleep
@@ -16,6 +16,9 @@ struct WholeDraws {
   /// How many times as much is drawn if every thread draws the whole list, into a mask of its own: what threads that
   /// share nothing but the machine can reach.
   double apart;
+  /// ns, not a ratio: a cache line's way from one processor to another. Some 50 within a group of processors that share
+  /// a cache, some 200 or more between two; a host may move a virtual machine's processors from one to the other.
+  double line_ns;
 };
 
 /// `threads`: at least two. Of more than `repetitions` draws, where a draw takes less than some ms.

@@ -19,6 +19,19 @@ const char* name_of(SnapRounding rounding) {
   return "";
 }
 
+std::string snap_of(const Exhibit& exhibit) {
+  const std::string rounding = name_of(exhibit.scene.rules.rounding);
+  switch (exhibit.rule_set->snap) {
+    case SnapFreedom::none:
+      return "snap to " + rounding;
+    case SnapFreedom::near_tie:
+      return "snap within 0.6 units, outlines to " + rounding;
+    case SnapFreedom::neighbour:
+      return "snap to either neighbour, outlines to " + rounding;
+  }
+  return "";
+}
+
 std::string grouped(const std::string& integer) {
   const bool negative = integer.starts_with('-');
   const std::string digits = integer.substr(negative ? 1 : 0);
@@ -85,9 +98,9 @@ Caption make_caption(const Exhibit& exhibit) {
   const Setting& setting = exhibit.scene.setting;
   const Rules& rules = exhibit.scene.rules;
   Caption caption;
-  caption.setting = fmt::format("{} x {} px, {} sample{} a pixel, {} subpixel bits, snap to {}", setting.target.width,
-                                setting.target.height, setting.samples(), setting.samples() == 1 ? "" : "s",
-                                rules.subpixel_bits, name_of(rules.rounding));
+  caption.setting =
+      fmt::format("{} x {} px, {} sample{} a pixel, {} subpixel bits, {}", setting.target.width, setting.target.height,
+                  setting.samples(), setting.samples() == 1 ? "" : "s", rules.subpixel_bits, snap_of(exhibit));
   if (exhibit.wrong) {
     const WrongSample& wrong = *exhibit.wrong;
     const SampleLocation& at = setting.sample_locations[static_cast<std::size_t>(wrong.sample)];

@@ -10,6 +10,7 @@
 #include "conformance/compare/outline.h"
 #include "conformance/scene/explanation.h"
 #include "conformance/scene/mask.h"
+#include "conformance/scene/rule_set.h"
 #include "conformance/scene/scene.h"
 
 namespace edgecase::conformance {
@@ -27,7 +28,8 @@ struct Exhibit {
   std::string subject;  ///< may be empty when there is nothing observed
   std::string command;  ///< one line that reproduces this; may be empty
   Scene scene;
-  std::vector<GridTriangle> snapped;  ///< the scene's triangles on the subpixel grid of its rules
+  const RuleSet* rule_set = &kExactRules;  ///< what `must` and `may` are by
+  std::vector<GridTriangle> snapped;       ///< the scene's triangles on the subpixel grid of its rules
   MaskBatch must;
   MaskBatch may;       ///< no masks if the rules leave nothing open
   MaskBatch observed;  ///< no masks: the exhibit shows only what the rules say

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "conformance/compare/atomic_file.h"
-#include "conformance/oracle/oracle.h"
+#include "conformance/oracle/demands.h"
 #include "conformance/report/report.h"
 #include "conformance/runner/findings.h"
 
@@ -21,7 +21,7 @@ tl::expected<Finding, Error> first_finding(const ExhaustPlan& plan, const Exhaus
   finding.scene.rules = (*subject)->info().rules;
   finding.scene.triangles = {exhaust_triangle(plan, first.triangle)};
   finding.window = finding.scene;
-  finding.expected = by_the_rules(finding.scene);
+  finding.expected = oracle::demands(finding.scene, kExactRules).must;
   finding.wrong.kind = first.missing ? WrongSample::Kind::missing : WrongSample::Kind::unexpected;
   finding.wrong.x = first.x;
   finding.wrong.y = first.y;

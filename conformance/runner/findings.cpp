@@ -8,6 +8,7 @@
 #include "conformance/compare/atomic_file.h"
 #include "conformance/compare/picture.h"
 #include "conformance/compare/text_picture.h"
+#include "conformance/oracle/demands.h"
 #include "conformance/oracle/oracle.h"
 
 namespace edgecase::conformance {
@@ -63,7 +64,7 @@ std::string caption(const Finding& finding) {
 Exhibit exhibit(const Finding& finding, const Origin& origin, const std::string& command) {
   const Scene& scene = finding.window;
   const Triangle& wrong = scene.triangles[finding.wrong.triangle];
-  Exhibit result = exhibit_of(scene);
+  Exhibit result = exhibit_of(scene, *finding.rule_set);
   result.title = fmt::format("{}: {}", origin.subject, origin.where);
   result.subject = origin.device.empty() ? origin.subject : fmt::format("{} ({})", origin.subject, origin.device);
   result.command = command;
@@ -154,17 +155,9 @@ std::optional<Error> unwritable(const std::string& folder) {
   return Error{ErrorKind::bad_input, fmt::format("report folder {}: {}", folder, error.message())};
 }
 
-MaskBatch by_the_rules(const Scene& scene) {
-  MaskBatch masks;
-  masks.reset(MaskLayout(scene.setting), scene.triangles.size());
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], masks[i]);
-  }
-  return masks;
-}
-
-Exhibit exhibit_of(const Scene& scene) {
+Exhibit exhibit_of(const Scene& scene, const RuleSet& rule_set) {
   Exhibit result;
+  result.rule_set = &rule_set;
   result.scene = scene;
   for (const Triangle& t : scene.triangles) {
     result.snapped.push_back(
@@ -225,16 +218,9 @@ Case reproduction(const Finding& finding, const Origin& origin, const Scene& sce
   const MaskLayout layout(scene.setting);
   if (scene.clip || std::max(layout.target.width, layout.target.height) > kMostReadableExtent) return result;
 
-  const MaskBatch expected = by_the_rules(scene);
   Expectation expect;
-  for (int y = 0; y < layout.target.height; ++y) {
-    for (int x = 0; x < layout.target.width; ++x) {
-      for (int s = 0; s < layout.samples; ++s) {
-        int count = 0;
-        for (std::size_t t = 0; t < expected.size(); ++t) count += covered(expected[t], layout.bit(x, y, s)) ? 1 : 0;
-        expect.counts.push_back(static_cast<std::int8_t>(std::min(count, 9)));
-      }
-    }
+  for (const auto& demand : oracle::sample_demands(scene.setting, oracle::demands(scene, kExactRules))) {
+    expect.counts.push_back(static_cast<std::int8_t>(std::min(demand.triangles, 9)));
   }
   result.expect = std::move(expect);
   return result;

@@ -19,11 +19,8 @@ namespace edgecase::conformance {
 /// Asked before an hour of comparing, not after.
 std::optional<Error> unwritable(const std::string& folder);
 
-/// What the rules say of the scene's window triangles, one mask a triangle.
-MaskBatch by_the_rules(const Scene& scene);
-
 /// The scene and its snapped triangles, and nothing yet of what anybody says about them.
-Exhibit exhibit_of(const Scene& scene);
+Exhibit exhibit_of(const Scene& scene, const RuleSet& rule_set = kExactRules);
 
 /// One line of the report, without the pictures.
 Result describe_result(const RunResult& run, const RunPlan& plan);

@@ -6,7 +6,7 @@
 
 #include "conformance/compare/picture.h"
 #include "conformance/compare/text_picture.h"
-#include "conformance/oracle/allowed.h"
+#include "conformance/oracle/demands.h"
 #include "conformance/oracle/oracle.h"
 #include "conformance/runner/case_library.h"
 #include "conformance/runner/commands.h"
@@ -21,17 +21,12 @@ namespace edgecase::conformance {
 namespace {
 
 // What the set demands of each triangle of a scene in window positions, and what it leaves open.
-void set_demands(const Scene& scene, const RuleSet& rule_set, Exhibit& exhibit) {
-  exhibit = exhibit_of(scene);
-  exhibit.must = by_the_rules(scene);
-  if (rule_set.exact()) return;
-  const MaskLayout layout(scene.setting);
-  const std::vector<std::uint64_t> asked(layout.words(), ~std::uint64_t{0});
-  exhibit.may.reset(layout, scene.triangles.size());
-  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-    oracle::allow_by_definition(scene.setting, scene.rules, rule_set, scene.triangles[i], asked, exhibit.must[i],
-                                exhibit.may[i]);
-  }
+Exhibit exhibit_of_demands(const Scene& scene, const RuleSet& rule_set) {
+  Exhibit exhibit = exhibit_of(scene, rule_set);
+  oracle::Demands demands = oracle::demands(scene, rule_set);
+  exhibit.must = std::move(demands.must);
+  exhibit.may = std::move(demands.may);
+  return exhibit;
 }
 
 // Behind a viewport transform that rounds nothing, with nothing to clip; nothing if that is not so.
@@ -69,7 +64,7 @@ tl::expected<Exhibit, Error> with_subject(const Case& file, const RuleSet& rule_
   Exhibit exhibit;
   std::size_t unpredicted = 0;
   if (!scene->clip || !rule_set.exact()) {
-    set_demands(in_window(*scene).value(), rule_set, exhibit);  // Judge::refusal has seen to it
+    exhibit = exhibit_of_demands(in_window(*scene).value(), rule_set);  // Judge::refusal has seen to it
     exhibit.observed = std::move(observed);
     exhibit.wrong = compared(exhibit).first;
   } else {
@@ -103,8 +98,7 @@ tl::expected<Exhibit, Error> by_rules_alone(const Case& file, const RuleSet& rul
               fmt::format("{}: what it covers depends on the clipper; --subject names one", file.path)});
   }
   if (!rule_set.exact()) scene->rules = Rules{rule_set.subpixel_bits(scene->rules.subpixel_bits)};
-  Exhibit exhibit;
-  set_demands(*scene, rule_set, exhibit);
+  Exhibit exhibit = exhibit_of_demands(*scene, rule_set);
   exhibit.title = file.name.empty() ? file.path : file.name;
   return exhibit;
 }

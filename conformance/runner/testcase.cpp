@@ -6,8 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "conformance/oracle/allowed.h"
-#include "conformance/oracle/oracle.h"
+#include "conformance/oracle/demands.h"
 #include "conformance/runner/metamorphic_trial.h"
 #include "conformance/scene/window_position.h"
 
@@ -41,44 +40,22 @@ bool on_grid(const Scene& scene, int bits) {
 // another set than the exact one expects to be open. A case in clip space that expects something has exact window
 // positions: the reader sees to it.
 std::optional<Error> contradiction(const Case& file, const Scene& scene) {
-  const MaskLayout layout(scene.setting);
-  std::vector<int> counts(layout.sample_count());
-  std::vector<bool> open(layout.sample_count());
-  std::vector<std::uint64_t> must(layout.words()), may(layout.words());
-  const std::vector<std::uint64_t> asked(layout.words(), ~std::uint64_t{0});
-  const auto index = [&](int x, int y, int s) {
-    return static_cast<std::size_t>((y * layout.target.width + x) * layout.samples + s);
-  };
-  const auto for_each_sample = [&](auto&& visit) {
-    for (int y = 0; y < layout.target.height; ++y)
-      for (int x = 0; x < layout.target.width; ++x)
-        for (int s = 0; s < layout.samples; ++s) visit(x, y, s);
-  };
-  for (const Triangle& triangle : exact_window_triangles(scene).value_or(std::vector<Triangle>{})) {
-    if (file.rule_set->exact()) {
-      oracle::cover_by_definition(scene.setting, scene.rules, triangle, must);
-    } else {
-      oracle::allow_by_definition(scene.setting, scene.rules, *file.rule_set, triangle, asked, must, may);
-    }
-    for_each_sample([&](int x, int y, int s) {
-      const std::size_t bit = layout.bit(x, y, s);
-      counts[index(x, y, s)] += covered(must, bit) ? 1 : 0;
-      if (covered(may, bit)) open[index(x, y, s)] = true;
-    });
-  }
-  std::optional<Error> result;
-  for_each_sample([&](int x, int y, int s) {
-    const std::size_t i = index(x, y, s);
-    const auto expected = file.expect->counts[i];
-    const bool right =
-        expected == Expectation::kMay ? open[i] || file.rule_set->exact() : !open[i] && counts[i] == expected;
-    if (result || right) return;
+  const Scene window{scene.setting, scene.rules, exact_window_triangles(scene).value_or(std::vector<Triangle>{}), {}};
+  const auto demands = oracle::sample_demands(scene.setting, oracle::demands(window, *file.rule_set));
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    const auto& [triangles, open] = demands[i];
+    const int expected = file.expect->counts[i];
+    const bool right = expected == Expectation::kMay ? open || file.rule_set->exact() : !open && triangles == expected;
+    if (right) continue;
     const auto said = [](bool is_open, int count) { return is_open ? "open" : fmt::format("{} triangles", count); };
-    result = Error{ErrorKind::bad_input,
-                   fmt::format("{}: expect: pixel ({}, {}), sample {}: the case says {}, the rules say {}", file.path,
-                               x, y, s, said(expected == Expectation::kMay, expected), said(open[i], counts[i]))};
-  });
-  return result;
+    const auto samples = static_cast<std::size_t>(scene.setting.samples());
+    const auto width = static_cast<std::size_t>(scene.setting.target.width);
+    return Error{ErrorKind::bad_input,
+                 fmt::format("{}: expect: pixel ({}, {}), sample {}: the case says {}, the rules say {}", file.path,
+                             i / samples % width, i / samples / width, i % samples,
+                             said(expected == Expectation::kMay, expected), said(open, triangles))};
+  }
+  return std::nullopt;
 }
 
 // The samples of '?', for every triangle.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "conformance/scene/standard_samples.h"
 #include "rasterizer/family/family.h"
 #include "rasterizer/snap.h"
 
@@ -24,13 +25,9 @@ class FamilySubject : public Subject {
 
   std::optional<std::string> refusal(const Scene& scene) const override {
     if (scene.rules != info_.rules) return "rasterizes 8 subpixel bits, snapped to nearest even, only";
-    const Setting& setting = scene.setting;
-    if (setting.samples() == 1 && setting.sample_locations[0] != SampleLocation{})
-      return "a sample off the pixel's centre";
-    if (setting.cull != CullMode::none) return "culling";
-    if (scene.assembly) return "primitives to be assembled";
-    if (scene.clip) return "clip-space geometry";
-    return Subject::refusal(scene);
+    if (auto reason = Subject::refusal(scene)) return reason;
+    if (!has_standard_samples(scene.setting)) return "a sample off the pixel's centre";
+    return std::nullopt;
   }
 
   tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override {

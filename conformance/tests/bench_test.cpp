@@ -15,6 +15,7 @@
 #include "conformance/bench/plain.h"
 #include "conformance/bench/plot.h"
 #include "conformance/subjects/family_subject.h"
+#include "conformance/tests/temporary_folder.h"
 #include "rasterizer/fast/fast.h"
 #include "rasterizer/scalar.h"
 
@@ -262,8 +263,8 @@ TEST(BenchCommand, BadInputIsOneLineAndAnExitStatus) {
   EXPECT_EQ(status(unwritable, "cannot write /nonexistent/rows.json"), 2);
   // A run that fails leaves no file behind.
   BenchOptions failing = quick({"smal10"}, {});
-  failing.json = (std::filesystem::path(testing::TempDir()) / "bench_test_rows.json").string();
-  std::filesystem::remove(failing.json);
+  const TemporaryFolder folder;
+  failing.json = (folder / "rows.json").string();
   EXPECT_EQ(status(failing, "small10"), 2);
   EXPECT_FALSE(std::filesystem::exists(failing.json));
 }
@@ -318,7 +319,8 @@ TEST(BenchOutput, TheTableHasEveryRasterizer) {
 TEST(BenchOutput, ThePlotIsAPicture) {
   EXPECT_THAT(plot_program(some_rows(), "a'b.png"), HasSubstr("'a''b.png'"));
   EXPECT_THAT(plot_program(some_rows(), "p.png"), HasSubstr("'it''s'"));
-  const auto path = std::filesystem::path(testing::TempDir()) / "bench_test_plot.png";
+  const TemporaryFolder folder;
+  const auto path = folder / "plot.png";
   const auto drawn = plot_bench(some_rows(), path.string());
   ASSERT_TRUE(drawn) << drawn.error().message;
   std::ifstream file(path, std::ios::binary);
@@ -326,7 +328,6 @@ TEST(BenchOutput, ThePlotIsAPicture) {
   file.read(signature.data(), 4);
   EXPECT_EQ(signature, "\x89PNG");
   EXPECT_GT(std::filesystem::file_size(path), 10'000u);
-  std::filesystem::remove(path);
   EXPECT_FALSE(plot_bench(some_rows(), "/nonexistent/plot.png"));
 }
 

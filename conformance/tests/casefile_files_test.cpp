@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "conformance/casefile/casefile.h"
+#include "conformance/tests/temporary_folder.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -20,13 +21,6 @@ constexpr std::string_view kGood =
 
 class CaseFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "edgecase_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path put(const fs::path& relative, std::string_view text) const {
     const fs::path file = folder_ / relative;
     fs::create_directories(file.parent_path());
@@ -34,11 +28,11 @@ class CaseFiles : public testing::Test {
     return file;
   }
   std::string message(const fs::path& file) const {
-    const auto result = load_case(file, folder_);
+    const auto result = load_case(file, folder_.path());
     return result ? "no error" : result.error().message;
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(CaseFiles, AreNamedByTheirPlaceBelowTheRoot) {
@@ -61,7 +55,7 @@ TEST_F(CaseFiles, AreNamedByTheirPlaceBelowTheRoot) {
 TEST_F(CaseFiles, OutsideTheRootHaveNoCategory) {
   put("report/x.json", kGood);
   const fs::path before = fs::current_path();
-  fs::current_path(folder_);
+  fs::current_path(folder_.path());
   const auto outside = load_case("report/x.json", "cases");
   fs::current_path(before);
   ASSERT_TRUE(outside);
@@ -72,7 +66,7 @@ TEST_F(CaseFiles, OutsideTheRootHaveNoCategory) {
 TEST_F(CaseFiles, AreFoundInTheOrderOfTheirPaths) {
   for (const auto file : {"b/z.json", "b/a.json", "a/z.json", "a.json", "README.md", "a/.hidden.json", ".git/x.json"})
     put(file, kGood);
-  const auto found = find_cases(folder_);
+  const auto found = find_cases(folder_.path());
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(*found, (std::vector<fs::path>{folder_ / "a.json", folder_ / "a/z.json", folder_ / "b/a.json",
                                            folder_ / "b/z.json"}));
@@ -86,7 +80,7 @@ TEST_F(CaseFiles, FolderThatIsNone) {
 TEST_F(CaseFiles, FileThatIsNone) {
   const std::string folder = folder_.string();
   EXPECT_EQ(message(folder_ / "none.json"), folder + "/none.json: there is no such file");
-  EXPECT_EQ(message(folder_), folder + ": is a folder, not a case file");
+  EXPECT_EQ(message(folder_.path()), folder + ": is a folder, not a case file");
   EXPECT_EQ(message(put("empty.json", "")), folder + "/empty.json: the file is empty");
   EXPECT_EQ(message(put("x.json", "{")),
             folder + "/x.json:1:2: not JSON: unexpected end of input; expected string literal");
@@ -109,7 +103,7 @@ TEST_F(CaseFiles, SizeIsLimited) {
 TEST_F(CaseFiles, WithoutPermission) {
   const fs::path file = put("x.json", kGood);
   fs::permissions(file, fs::perms::none);
-  fs::permissions(folder_, fs::perms::all);
+  fs::permissions(folder_.path(), fs::perms::all);
   // Root may read every file: become somebody else for this one.
   constexpr uid_t kNobody = 65534;
   const bool root = geteuid() == 0;

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "conformance/casefile/casefile.h"
-#include "conformance/oracle/allowed.h"
-#include "conformance/oracle/oracle.h"
+#include "conformance/oracle/demands.h"
 #include "conformance/scene/window_position.h"
 
 namespace edgecase::conformance {
@@ -42,35 +41,13 @@ std::string readme() {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-struct Oracle {
-  void (*cover)(const Setting&, const Rules&, const Triangle&, MutableMaskView);
-  void (*allow)(const Setting&, const Rules&, const RuleSet&, const Triangle&, MaskView, MutableMaskView,
-                MutableMaskView);
-};
-constexpr Oracle kByDefinition{oracle::cover_by_definition, oracle::allow_by_definition};
-constexpr Oracle kByShift{oracle::cover_by_shift, oracle::allow_by_shift};
-
-std::vector<std::int8_t> counts(const Case& one, const Oracle& oracle) {
+std::vector<std::int8_t> counts(const Case& one, oracle::Method method) {
   const Scene& scene = one.scene;
-  const MaskLayout layout(scene.setting);
-  std::vector<std::int8_t> result(layout.sample_count());
-  std::vector<std::uint64_t> mask(layout.words()), may(layout.words());
-  const std::vector<std::uint64_t> asked(layout.words(), ~std::uint64_t{0});
-  for (const Triangle& triangle : exact_window_triangles(scene).value_or(std::vector<Triangle>{})) {
-    if (one.rule_set->exact()) {
-      oracle.cover(scene.setting, scene.rules, triangle, mask);
-    } else {
-      oracle.allow(scene.setting, scene.rules, *one.rule_set, triangle, asked, mask, may);
-    }
-    for (int y = 0; y < layout.target.height; ++y) {
-      for (int x = 0; x < layout.target.width; ++x) {
-        for (int s = 0; s < layout.samples; ++s) {
-          const auto i = static_cast<std::size_t>((y * layout.target.width + x) * layout.samples + s);
-          if (covered(may, layout.bit(x, y, s))) result[i] = Expectation::kMay;
-          if (result[i] != Expectation::kMay && covered(mask, layout.bit(x, y, s))) ++result[i];
-        }
-      }
-    }
+  const Scene window{scene.setting, scene.rules, exact_window_triangles(scene).value_or(std::vector<Triangle>{}), {}};
+  std::vector<std::int8_t> result;
+  for (const auto& [triangles, open] :
+       oracle::sample_demands(scene.setting, oracle::demands(window, *one.rule_set, method))) {
+    result.push_back(open ? Expectation::kMay : static_cast<std::int8_t>(triangles));
   }
   return result;
 }
@@ -99,8 +76,8 @@ TEST(CasesFolder, EveryExpectationIsWhatBothOraclesSay) {
     ASSERT_EQ(one.expect.has_value(), exact_window_triangles(one.scene).has_value()) << one.path;
     if (!one.expect) continue;
     const std::string expected = as_rows(one, one.expect->counts);
-    EXPECT_EQ(expected, as_rows(one, counts(one, kByDefinition))) << one.path;
-    EXPECT_EQ(expected, as_rows(one, counts(one, kByShift))) << one.path;
+    EXPECT_EQ(expected, as_rows(one, counts(one, oracle::Method::by_definition))) << one.path;
+    EXPECT_EQ(expected, as_rows(one, counts(one, oracle::Method::by_shift))) << one.path;
   }
 }
 

@@ -14,6 +14,9 @@
 #include <sstream>
 #include <string>
 
+#include "conformance/tests/temporary_folder.h"
+
+namespace edgecase::conformance {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,21 +30,8 @@ struct Outcome {
   std::string err;
 };
 
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path);
-  std::stringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
-
 class CommandLine : public testing::Test {
  protected:
-  CommandLine() {
-    std::string pattern = (fs::temp_directory_path() / "edgecase-cli-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~CommandLine() override { fs::remove_all(folder_); }
-
   Outcome run(const std::string& arguments, const std::string& environment = "") {
     return shell(environment + " '" EDGECASE_PROGRAM "' " + arguments);
   }
@@ -49,7 +39,8 @@ class CommandLine : public testing::Test {
   Outcome shell(const std::string& in_folder) {
     const std::string command = "cd '" + folder_.string() + "' && " + in_folder + " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "out.txt"), slurp(folder_ / "err.txt")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder_ / "out.txt"),
+            content_of(folder_ / "err.txt")};
   }
 
   std::string write(const std::string& name, const std::string& text) {
@@ -64,7 +55,7 @@ class CommandLine : public testing::Test {
     EXPECT_EQ(outcome.out, "");
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 constexpr const char* kCase = R"({"about": "A test.", "source": "none", "target": [4, 4],
@@ -82,7 +73,7 @@ TEST_F(CommandLine, ComparesSeveralVulkanDriversInOneRun) {
   const Outcome outcome =
       run("run fill_rule/flat_top --subject vulkan:lvp_icd.x86_64.json --subject vulkan:llvmpipe --json two.json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto json = nlohmann::json::parse(slurp(folder_ / "two.json"));
+  const auto json = nlohmann::json::parse(content_of(folder_ / "two.json"));
   ASSERT_EQ(json.at("results").size(), 2U);
   for (const auto& result : json.at("results")) {
     EXPECT_EQ(result.at("verdict"), "pass");
@@ -93,7 +84,7 @@ TEST_F(CommandLine, ComparesSeveralVulkanDriversInOneRun) {
 TEST_F(CommandLine, RunsACaseAndWritesJson) {
   const Outcome outcome = run("run " + write("a.json", kCase) + " --subject edgecase --json r.json --seed 5");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+  const auto json = nlohmann::json::parse(content_of(folder_ / "r.json"));
   EXPECT_EQ(json["seed"], 5);
   ASSERT_EQ(json["results"].size(), 1u);
   const auto& result = json["results"][0];
@@ -109,7 +100,7 @@ TEST_F(CommandLine, AMismatchIsStatusOneWithPictureReproductionAndCommand) {
       run("run --subject fault:right-inclusive --generator ties --count 500 --report rep --junit j.xml");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out, HasSubstr("fail"));
-  EXPECT_THAT(slurp(folder_ / "j.xml"), HasSubstr("<failure"));
+  EXPECT_THAT(content_of(folder_ / "j.xml"), HasSubstr("<failure"));
   ASSERT_TRUE(fs::exists(folder_ / "rep/fault-right-inclusive-ties-1.png"));
   ASSERT_TRUE(fs::exists(folder_ / "rep/fault-right-inclusive-ties-1.svg"));
   ASSERT_TRUE(fs::exists(folder_ / "rep/index.html"));
@@ -122,8 +113,8 @@ TEST_F(CommandLine, TheSameSeedGivesTheSameResult) {
   const std::string arguments = "run --subject fault:corner-sample --generator fan --count 3000 --report rep --json ";
   run(arguments + "a.json --jobs 1");
   run(arguments + "b.json --jobs 2");
-  auto a = nlohmann::json::parse(slurp(folder_ / "a.json"));
-  auto b = nlohmann::json::parse(slurp(folder_ / "b.json"));
+  auto a = nlohmann::json::parse(content_of(folder_ / "a.json"));
+  auto b = nlohmann::json::parse(content_of(folder_ / "b.json"));
   for (auto* json : {&a, &b}) {
     (*json)["totals"].erase("seconds");
     for (auto& result : (*json)["results"]) {
@@ -154,7 +145,7 @@ TEST_F(CommandLine, ListsAndShows) {
   EXPECT_EQ(run("run --subject edgecase fill_rule/flat_top").status, 0);  // an option takes one value
   EXPECT_EQ(run("show clip/mesh_across_the_near_plane --subject lavapipe --png clipped.png").status, 0);
   EXPECT_EQ(run("show a.json --subject fault:all-exclusive --png p.png").status, 0);
-  EXPECT_THAT(slurp(folder_ / "p.png").substr(1, 3), "PNG");
+  EXPECT_THAT(content_of(folder_ / "p.png").substr(1, 3), "PNG");
 }
 
 TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
@@ -168,7 +159,7 @@ TEST_F(CommandLine, NamesCategoriesAndRunsThem) {
   const auto run_categories = [&](const std::string& arguments) {
     EXPECT_EQ(run("run --subject edgecase --count 400 --json r.json " + arguments).status, 0);
     std::set<std::string> found;
-    const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+    const auto json = nlohmann::json::parse(content_of(folder_ / "r.json"));
     for (const auto& result : json["results"]) found.insert(result["category"]);
     return found;
   };
@@ -246,7 +237,7 @@ TEST_F(CommandLine, ExhaustsALatticeAlsoAfterBeingKilled) {
         ("cd '" + folder_.string() + "' && timeout -s KILL 1.6 '" EDGECASE_PROGRAM "' " + arguments + " 2>/dev/null")
             .c_str());
     EXPECT_NE(status, 0);
-    return nlohmann::json::parse(slurp(folder_ / "s.json"))["triangles"].get<std::uint64_t>();
+    return nlohmann::json::parse(content_of(folder_ / "s.json"))["triangles"].get<std::uint64_t>();
   };
   const std::uint64_t first = killed_at();
   EXPECT_GT(first, 0u);
@@ -255,14 +246,14 @@ TEST_F(CommandLine, ExhaustsALatticeAlsoAfterBeingKilled) {
   expect_one_line(other, 2, "s.json: subject is \"fault:all-exclusive\"");
   const std::string smaller = "exhaust --lattice-bits 1 --target 4x4 --subject fault:all-exclusive --json r.json";
   EXPECT_EQ(run(smaller).status, 1);
-  const auto json = nlohmann::json::parse(slurp(folder_ / "r.json"));
+  const auto json = nlohmann::json::parse(content_of(folder_ / "r.json"));
   EXPECT_EQ(json["triangles"], 85'320);
   EXPECT_EQ(json["samples_compared"], 85'320 * 16);
   EXPECT_GT(json["wrong"], 0);
   EXPECT_GT(json["seconds"], 0);
   EXPECT_EQ(json["missing"].get<int>() + json["unexpected"].get<int>(), json["wrong"].get<int>());
   EXPECT_EQ(run("exhaust --lattice-bits 1 --target 2x2 --subject fault:right-inclusive --report r").status, 1);
-  EXPECT_THAT(slurp(folder_ / "r/index.html"), HasSubstr("exhaustion.png"));
+  EXPECT_THAT(content_of(folder_ / "r/index.html"), HasSubstr("exhaustion.png"));
   EXPECT_TRUE(fs::exists(folder_ / "r/exhaustion.svg"));
   EXPECT_EQ(run("run r/exhaustion.json --subject fault:right-inclusive").status, 1);
   EXPECT_EQ(run("run r/exhaustion.json --subject edgecase").status, 0);
@@ -286,3 +277,4 @@ TEST_F(CommandLine, FilesAreWholeOrAbsent) {
 }
 
 }  // namespace
+}  // namespace edgecase::conformance

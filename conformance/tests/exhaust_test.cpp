@@ -13,6 +13,7 @@
 #include "conformance/oracle/oracle.h"
 #include "conformance/runner/exhaust.h"
 #include "conformance/runner/exhaust_state.h"
+#include "conformance/tests/temporary_folder.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -99,9 +100,7 @@ TEST(Exhaust, GoesOnWhereItStopped) {
   const ExhaustPlan plan = plan_for("fault:all-exclusive", 1, {4, 4}, 2);
   const Exhaustion whole = run(plan);
   // What a state says after the first 12,345 triangles, by way of its file.
-  const std::string name = (fs::temp_directory_path() / "edgecase-exhaust-XXXXXX").string();
-  std::string pattern = name;
-  const fs::path folder = mkdtemp(pattern.data());
+  const TemporaryFolder folder;
   Exhaustion part;
   part.triangles = 12'345;
   auto rest = run(plan, part);
@@ -120,12 +119,10 @@ TEST(Exhaust, GoesOnWhereItStopped) {
   EXPECT_EQ(resumed.wrong, whole.wrong);
   EXPECT_EQ(resumed.unexplained, whole.unexplained);
   EXPECT_EQ(resumed.first, whole.first);
-  fs::remove_all(folder);
 }
 
 TEST(Exhaust, RefusesAStateOfSomethingElse) {
-  std::string pattern = (fs::temp_directory_path() / "edgecase-exhaust-XXXXXX").string();
-  const fs::path folder = mkdtemp(pattern.data());
+  const TemporaryFolder folder;
   const fs::path file = folder / "state.json";
   const ExhaustPlan plan = plan_for("fault:all-exclusive");
   Exhaustion done;
@@ -162,7 +159,6 @@ TEST(Exhaust, RefusesAStateOfSomethingElse) {
   EXPECT_THAT(complaint("{}"), HasSubstr("there is no field edgecase"));
   fs::remove(file);
   EXPECT_EQ(load_exhaust_state(file, plan, "a device")->triangles, 0u);
-  fs::remove_all(folder);
 }
 
 TEST(Exhaust, RefusesWhatItCannotHold) {

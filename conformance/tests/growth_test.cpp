@@ -13,6 +13,7 @@
 #include "conformance/bench/workloads.h"
 #include "conformance/oracle/oracle.h"
 #include "conformance/subjects/edgecase_subject.h"
+#include "conformance/tests/temporary_folder.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -96,8 +97,7 @@ TEST(Growth, OutputNamesAxesAndValues) {
 }
 
 TEST(Growth, TheCommandWritesAPictureForEachAxis) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "growth_test";
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder folder;
   BenchOptions options;
   options.quick = true;
   options.growth = folder.string();
@@ -110,7 +110,6 @@ TEST(Growth, TheCommandWritesAPictureForEachAxis) {
     EXPECT_THAT(table, HasSubstr(std::string(each.title)));
     EXPECT_GT(std::filesystem::file_size(folder / ("growth-" + std::string(each.name) + ".png")), 10'000u);
   }
-  std::filesystem::remove_all(folder);
   options.growth = "/proc/growth";
   testing::internal::CaptureStderr();
   EXPECT_EQ(bench_command(options), 2);

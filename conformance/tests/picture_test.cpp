@@ -1,27 +1,19 @@
 #include "conformance/compare/picture.h"
 
 #include <cairo.h>
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
-#include <csignal>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
+#include <cstring>
 #include <memory>
 #include <sstream>
 
-#include "conformance/compare/atomic_file.h"
-#include "conformance/compare/caption.h"
 #include "conformance/compare/panels.h"
-#include "conformance/compare/text_picture.h"
 #include "conformance/tests/sample_exhibits.h"
+#include "conformance/tests/temporary_folder.h"
 
 /// Asked by the leak checker: fontconfig keeps patterns for the life of the process.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
@@ -30,32 +22,6 @@ namespace edgecase::conformance {
 namespace {
 
 using testing::HasSubstr;
-
-/// An empty folder that goes away with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "edgecase_picture_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  std::size_t files() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// A decoded PNG.
 class Pixels {
@@ -99,150 +65,6 @@ constexpr unsigned kOrange = 0xE69F00;
 constexpr unsigned kVermillion = 0xD55E00;
 constexpr unsigned kPurple = 0xCC79A7;
 constexpr unsigned kGreen = 0x009E73;
-
-Exhibit square_fan() {
-  return make_exhibit({{16, 16}, {SampleLocation{}}}, {{Position{8.5f, 8.5f}, {3, 3}, {14, 3}},
-                                                       {Position{8.5f, 8.5f}, {14, 3}, {14, 13}},
-                                                       {Position{8.5f, 8.5f}, {14, 13}, {3, 13}},
-                                                       {Position{8.5f, 8.5f}, {3, 13}, {3, 3}}});
-}
-
-std::size_t owner(const Exhibit& exhibit, int x, int y) {
-  const std::size_t bit = MaskLayout(exhibit.scene.setting).bit(x, y, 0);
-  for (std::size_t i = 0; i < exhibit.must.size(); ++i) {
-    if (covered(exhibit.must[i], bit)) return i;
-  }
-  return 0;
-}
-
-Exhibit one_of_each() {
-  Exhibit exhibit = square_fan();
-  spoil(exhibit, owner(exhibit, 5, 8), 5, 8, 0);
-  spoil(exhibit, 0, 1, 14, 0);
-  spoil(exhibit, (owner(exhibit, 10, 5) + 1) % 4, 10, 5, 0);
-  return exhibit;
-}
-
-TEST(SampleState, TellsTheMarksApart) {
-  const Exhibit exhibit = one_of_each();
-  EXPECT_EQ(sample_state(exhibit, 0, 0, 0).mark, Mark::empty);
-  EXPECT_EQ(sample_state(exhibit, 6, 8, 0).mark, Mark::covered);
-  EXPECT_EQ(sample_state(exhibit, 5, 8, 0).mark, Mark::missing);
-  EXPECT_EQ(sample_state(exhibit, 1, 14, 0).mark, Mark::unexpected);
-  EXPECT_EQ(sample_state(exhibit, 10, 5, 0).mark, Mark::doubled);
-  EXPECT_EQ(sample_state(exhibit, 10, 5, 0).observed, 2);
-}
-
-TEST(SampleState, OpenSamplesMayBeCoveredOnce) {
-  Exhibit exhibit = square_fan();
-  const MaskLayout layout(exhibit.scene.setting);
-  exhibit.may = exhibit.must;
-  std::fill(exhibit.may.data().begin(), exhibit.may.data().end(), 0);
-  for (const std::size_t triangle : {std::size_t{0}, std::size_t{1}}) {
-    for (const int x : {0, 1, 2}) cover(exhibit.may[triangle], layout.bit(x, 0, 0));
-  }
-  cover(exhibit.observed[0], layout.bit(1, 0, 0));
-  cover(exhibit.observed[0], layout.bit(2, 0, 0));
-  cover(exhibit.observed[1], layout.bit(2, 0, 0));
-  EXPECT_EQ(sample_state(exhibit, 0, 0, 0).mark, Mark::open_empty);
-  EXPECT_EQ(sample_state(exhibit, 1, 0, 0).mark, Mark::open_covered);
-  EXPECT_EQ(sample_state(exhibit, 2, 0, 0).mark, Mark::doubled);
-}
-
-TEST(Window, ShowsWhatMatters) {
-  const Exhibit small = make_exhibit({{200, 100}, {SampleLocation{}}}, {{Position{60, 40}, {70, 40}, {60, 46}}});
-  const Window around = choose_window(small);
-  EXPECT_TRUE(around.contains(59, 39) && around.contains(70, 46));
-  EXPECT_LE(around.width * around.height, 16 * 12);
-
-  Exhibit large = make_exhibit({{2000, 400}, {SampleLocation{}}}, {{Position{-50, 0}, {1990, 200}, {5, 399}}});
-  spoil(large, 0, 1999, 1, 0);
-  const Window cut = choose_window(large);
-  EXPECT_LE(cut.width, 48);
-  EXPECT_LE(cut.height, 32);
-  EXPECT_TRUE(cut.contains(1999, 1));
-  EXPECT_EQ(cut.x + cut.width, 2000);
-  EXPECT_EQ(cut.y, 0);
-
-  const Exhibit pixel = make_exhibit({{1, 1}, {SampleLocation{}}}, {{Position{-9, -9}, {9, -9}, {-9, 9}}});
-  EXPECT_EQ(choose_window(pixel).width * choose_window(pixel).height, 1);
-}
-
-TEST(Window, ReachesAStraySampleFarFromTheTriangle) {
-  Exhibit exhibit = make_exhibit({{40, 30}, {SampleLocation{}}}, {{Position{1, 1}, {9, 1}, {1, 9}}});
-  spoil(exhibit, 0, 3, 2, 0);
-  spoil(exhibit, 0, 3, 27, 0);
-  EXPECT_TRUE(choose_window(exhibit).contains(3, 27));
-}
-
-TEST(Caption, DecimalsAreExact) {
-  EXPECT_EQ(exact_decimal(0, 8), "0");
-  EXPECT_EQ(exact_decimal(384, 8), "1.5");
-  EXPECT_EQ(exact_decimal(-1, 8), "-0.00390625");
-  EXPECT_EQ(exact_decimal(257, 8), "1.00390625");
-  EXPECT_EQ(exact_decimal(-512, 8), "-2");
-  EXPECT_EQ(exact_decimal(65535, 16), "0.9999847412109375");
-  EXPECT_EQ(exact_decimal(7, 0), "7");
-}
-
-TEST(Caption, SaysWhyASampleIsInsideOrOutside) {
-  Exhibit exhibit = make_exhibit({{8, 8}, {SampleLocation{}}}, {{Position{1.5f, 1.5f}, {6.5f, 1.5f}, {1.5f, 6.5f}}});
-  const auto reason = [&](int x, int y) {
-    exhibit.explanation = explain(exhibit.snapped[0], exhibit.scene.setting, x, y, 0);
-    return make_caption(exhibit).reason;
-  };
-  EXPECT_EQ(reason(2, 2), "inside: on the inner side of all three edges");
-  EXPECT_EQ(reason(3, 1), "inside: on v0 -> v1, a top edge");
-  EXPECT_EQ(reason(1, 3), "inside: on v2 -> v0, a left edge");
-  EXPECT_EQ(reason(4, 3), "outside: on v1 -> v2, neither top nor left");
-  EXPECT_EQ(reason(7, 7), "outside: beyond the edge v1 -> v2");
-
-  exhibit.explanation = explain(exhibit.snapped[0], exhibit.scene.setting, 2, 2, 0);
-  exhibit.explanation->inside = false;
-  EXPECT_EQ(make_caption(exhibit).reason, "outside: the scissor leaves this pixel out");
-  exhibit.explanation->culled = true;
-  EXPECT_EQ(make_caption(exhibit).reason, "culled by the way it faces: the triangle covers nothing");
-}
-
-TEST(TextPicture, ShowsRowsWithCoordinates) {
-  Exhibit exhibit = make_exhibit({{8, 6}, {SampleLocation{}}}, {{Position{1.5f, 1.5f}, {6.5f, 1.5f}, {1.5f, 5.5f}}});
-  exhibit.title = "two samples";
-  spoil(exhibit, 0, 2, 1, 0);
-  spoil(exhibit, 0, 6, 1, 0);
-  EXPECT_EQ(text_picture(exhibit),
-            "two samples\n"
-            "8 x 6 px, 1 sample a pixel, 8 subpixel bits, snap to nearest even\n"
-            "    0    5\n"
-            "      v\n"
-            "  0 ........\n"
-            "> 1 .#o###x.\n"
-            "  2 .####...\n"
-            "  3 .###....\n"
-            "  4 .##.....\n"
-            "  5 ........\n"
-            ". not covered 33   # covered 13   o missing 1   x unexpected 1\n"
-            "missing at pixel (2, 1), sample 0, at (2.5, 1.5): the rules cover it, softpipe does not\n"
-            "triangle: v0 (1.5, 1.5)  v1 (6.5, 1.5)  v2 (1.5, 5.5)\n"
-            "edge functions there, in (1/256 px)^2, positive inside:\n"
-            "  v0 -> v1           0  top\n"
-            "  v1 -> v2  +1,048,576  -\n"
-            "  v2 -> v0    +262,144  left\n"
-            "inside: on v0 -> v1, a top edge\n"
-            "$ ./edgecase run --subject osmesa-softpipe findings/0001-softpipe-fans.json\n");
-}
-
-TEST(TextPicture, DoubledSamplesShowHowOften) {
-  EXPECT_EQ(character_of({Mark::doubled, 2}), '2');
-  EXPECT_EQ(character_of({Mark::doubled, 64}), '9');
-  EXPECT_THAT(text_picture(one_of_each()), HasSubstr("2-9 doubled 1"));
-}
-
-TEST(TextPicture, GroupsTheSamplesOfAPixel) {
-  Exhibit exhibit = make_exhibit({{4, 3}, {{4, 4}, {12, 12}}}, {{Position{0.5f, 0.5f}, {3.5f, 0.5f}, {0.5f, 2.5f}}});
-  spoil(exhibit, 0, 1, 1, 1);
-  EXPECT_THAT(text_picture(exhibit), HasSubstr("\n> 1 .# #x #. ..\n"));
-  EXPECT_THAT(text_picture(exhibit), HasSubstr("\n        v\n"));
-}
 
 TEST(Png, HasTheColoursOfItsMarksAndNoOthers) {
   const auto png = render_png(one_of_each());
@@ -370,7 +192,7 @@ TEST(Svg, IsWellFormed) {
 }
 
 TEST(PictureFile, IsWrittenWhole) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(write_png(one_of_each(), folder / "a.png"));
   ASSERT_TRUE(write_svg(one_of_each(), folder / "a.svg"));
   EXPECT_EQ(content_of(folder / "a.png"), *render_png(one_of_each()));
@@ -389,74 +211,6 @@ TEST(PictureFile, ErrorsNameTheFile) {
   struct stat status {};
   ASSERT_EQ(::stat("/dev/full", &status), 0);
   EXPECT_TRUE(S_ISCHR(status.st_mode));
-}
-
-TEST(AtomicFile, ReplacesWholeFilesAndFollowsLinks) {
-  const Folder folder;
-  ASSERT_TRUE(write_file_atomically(folder / "a", "one"));
-  ASSERT_TRUE(write_file_atomically(folder / "a", "two"));
-  std::filesystem::create_symlink(folder / "a", folder / "link");
-  ASSERT_TRUE(write_file_atomically(folder / "link", "three"));
-  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
-  EXPECT_EQ(content_of(folder / "a"), "three");
-  EXPECT_EQ(folder.files(), 2u);
-  EXPECT_FALSE(write_file_atomically(folder / "", "x"));
-  EXPECT_EQ(folder.files(), 2u);
-}
-
-TEST(AtomicFile, KeepsTheModeOfAnExistingFile) {
-  const Folder folder;
-  ASSERT_TRUE(write_file_atomically(folder / "a", "one"));
-  std::filesystem::permissions(folder / "a", std::filesystem::perms{0640});
-  ASSERT_TRUE(write_file_atomically(folder / "a", "two"));
-  EXPECT_EQ(std::filesystem::status(folder / "a").permissions(), std::filesystem::perms{0640});
-  EXPECT_EQ(content_of(folder / "a"), "two");
-}
-
-TEST(AtomicFile, TakesTheLongestNameThatAFileCanHave) {
-  const Folder folder;
-  const std::string name(255, 'n');
-  ASSERT_TRUE(write_file_atomically(folder / name, "x"));
-  EXPECT_EQ(content_of(folder / name), "x");
-}
-
-// As in `edgecase run --json /dev/stdout > file`: nothing that was printed before or after may be overwritten.
-TEST(AtomicFile, StandsInOrderWithWhatIsPrinted) {
-  const Folder folder;
-  std::fflush(stdout);
-  const int saved = ::dup(STDOUT_FILENO);
-  const int file = ::open((folder / "out").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  ASSERT_EQ(::dup2(file, STDOUT_FILENO), STDOUT_FILENO);
-  ::close(file);
-  std::fputs("before ", stdout);
-  const auto by_name = write_file_atomically("/dev/stdout", "one ");
-  std::fputs("between ", stdout);
-  const auto by_number = write_file_atomically("/dev/fd/1", "two ");
-  std::fputs("after", stdout);
-  std::fflush(stdout);
-  ::dup2(saved, STDOUT_FILENO);
-  ::close(saved);
-  EXPECT_TRUE(by_name && by_number);
-  EXPECT_EQ(content_of(folder / "out"), "before one between two after");
-  EXPECT_FALSE(write_file_atomically("/dev/fd/9999", "x"));
-}
-
-// A limit on the size of files stands in for a full disk: the write fails part of the way.
-TEST(AtomicFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
-  const Folder folder;
-  ASSERT_TRUE(write_file_atomically(folder / "a", "old"));
-  const auto previous = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit limit{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
-  const rlimit small{1000, limit.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const auto written = write_file_atomically(folder / "a", std::string(5000, 'n'));
-  ::setrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, previous);
-  ASSERT_FALSE(written);
-  EXPECT_THAT(written.error().message, HasSubstr("/a: cannot write: File too large"));
-  EXPECT_EQ(content_of(folder / "a"), "old");
-  EXPECT_EQ(folder.files(), 1u);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ TEST(Plan, AsMuchWorkAsItTakesToWakeAThreadIsShared) {
   EXPECT_EQ(make_plan(first(10), screen, 2).threads, 1);
   EXPECT_TRUE(may_pay(first(100), screen));
   EXPECT_EQ(make_plan(first(100), screen, 2).threads, 2);
-  // Large ones are parts by themselves, or the last one would keep the other threads waiting.
-  EXPECT_LT(make_plan(first(100), screen, 2).chunk, kMaxLanes);
+  // The last parts of few triangles are single ones, or they would keep the other threads waiting.
+  EXPECT_EQ(make_plan(first(100), screen, 2).chunk, 1u);
   // What pays if the other thread is there need not pay if it must be woken.
   EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::awake).threads, 2);
   EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::asleep).threads, 1);
@@ -105,12 +105,11 @@ TEST(Plan, ChunksAndPartsSufficeForAllThreads) {
       EXPECT_EQ(plan.threads, 16);
       EXPECT_GE(plan.chunk, 1u);
       const std::size_t chunks = (count + plan.chunk - 1) / plan.chunk;
-      // Small triangles of a single tile fill whole vectors.
-      EXPECT_GE(chunks, side == 1 ? std::min<std::size_t>(count / kMaxLanes, 16 * 8 - 3)
-                                  : std::min<std::size_t>(count, 16 * 8));
-      EXPECT_GE(plan.parts, 1u);
-      EXPECT_LE(plan.parts, chunks);
-      EXPECT_GE(plan.parts * tiles, std::min<std::size_t>(chunks * tiles, 16 * 32));
+      EXPECT_GE(chunks, std::min<std::size_t>(count, 16 * 8));
+      EXPECT_EQ(plan.parts.chunks(), chunks);
+      if (side > 1) {
+        EXPECT_GE(plan.parts.count() * tiles, std::min<std::size_t>(chunks * tiles, 16 * 32));
+      }
     }
   }
 }

@@ -89,8 +89,10 @@ void expect_same_for_all_plans(const std::vector<Fixed>& triangles, const Target
     for (const auto& [tile_columns, tile_rows] : {std::array{1, 1}, std::array{2, 3}, std::array{5, 7}}) {
       Plan plan = make_plan(triangles, target, threads, tile_columns, tile_rows);
       plan.chunk = std::max<std::size_t>(plan.chunk / 3, 1);
-      plan.parts = (triangles.size() + plan.chunk - 1) / plan.chunk;
-      if (tile_columns == 2) plan.parts = plan.parts / 2 + 1;
+      const std::size_t chunks = std::max<std::size_t>((triangles.size() + plan.chunk - 1) / plan.chunk, 1);
+      plan.parts = tile_columns == 1   ? Parts::falling(chunks, static_cast<std::size_t>(threads), std::array{1.0, 5.0})
+                   : tile_columns == 2 ? Parts::even(chunks, chunks / 2 + 1)
+                                       : Parts::even(chunks, chunks);
       plan.least_help = 0;
       StripMask observed(target);
       threaded.cover_union(triangles, observed, plan);

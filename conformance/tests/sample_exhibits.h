@@ -81,4 +81,27 @@ inline void spoil(Exhibit& exhibit, std::size_t triangle, int x, int y, int samp
   exhibit.explanation = explain(exhibit.snapped[triangle], exhibit.scene.setting, x, y, sample);
 }
 
+inline Exhibit square_fan() {
+  return make_exhibit({{16, 16}, {SampleLocation{}}}, {{Position{8.5f, 8.5f}, {3, 3}, {14, 3}},
+                                                       {Position{8.5f, 8.5f}, {14, 3}, {14, 13}},
+                                                       {Position{8.5f, 8.5f}, {14, 13}, {3, 13}},
+                                                       {Position{8.5f, 8.5f}, {3, 13}, {3, 3}}});
+}
+
+inline std::size_t owner(const Exhibit& exhibit, int x, int y) {
+  const std::size_t bit = MaskLayout(exhibit.scene.setting).bit(x, y, 0);
+  for (std::size_t i = 0; i < exhibit.must.size(); ++i) {
+    if (covered(exhibit.must[i], bit)) return i;
+  }
+  return 0;
+}
+
+inline Exhibit one_of_each() {
+  Exhibit exhibit = square_fan();
+  spoil(exhibit, owner(exhibit, 5, 8), 5, 8, 0);
+  spoil(exhibit, 0, 1, 14, 0);
+  spoil(exhibit, (owner(exhibit, 10, 5) + 1) % 4, 10, 5, 0);
+  return exhibit;
+}
+
 }  // namespace edgecase::conformance

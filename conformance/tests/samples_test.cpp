@@ -10,35 +10,17 @@
 
 #include "conformance/generators/random.h"
 #include "conformance/oracle/oracle.h"
+#include "conformance/scene/standard_samples.h"
 #include "conformance/subjects/edgecase_subject.h"
 #include "conformance/subjects/fault_subject.h"
 
 namespace edgecase::conformance {
 namespace {
 
-/// Vulkan's standardSampleLocations, the same as D3D's standard patterns.
-const std::vector<std::vector<SampleLocation>> kStandard = {
-    {{8, 8}},
-    {{12, 12}, {4, 4}},
-    {{6, 2}, {14, 6}, {2, 10}, {10, 14}},
-    {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}},
-    {{9, 9},
-     {7, 5},
-     {5, 10},
-     {12, 7},
-     {3, 6},
-     {10, 13},
-     {13, 11},
-     {11, 3},
-     {6, 14},
-     {8, 1},
-     {4, 2},
-     {2, 12},
-     {0, 8},
-     {15, 4},
-     {14, 15},
-     {1, 0}},
-};
+std::vector<SampleLocation> standard(int samples) {
+  const auto locations = standard_sample_locations(samples);
+  return {locations.begin(), locations.end()};
+}
 
 class Judges {
  public:
@@ -102,7 +84,7 @@ TEST(Samples, EveryoneAgreesOnStandardAndCustomLocations) {
         location = {static_cast<int>(random.between(0, 15)), static_cast<int>(random.between(0, 15))};
       }
     } else {
-      scene.setting.sample_locations = kStandard[static_cast<std::size_t>(random.between(0, 4))];
+      scene.setting.sample_locations = standard(1 << random.between(0, 4));
     }
     if (random.one_in(2)) scene.setting.scissor = random_scissor(random);
     scene.setting.cull = static_cast<CullMode>(random.between(0, 2));
@@ -116,7 +98,8 @@ TEST(Samples, EveryoneAgreesOnStandardAndCustomLocations) {
 // only the centre, or only the first sample, loses.
 TEST(Samples, TrianglesThatTouchTheOutermostSamples) {
   Judges judges;
-  for (const auto& locations : kStandard) {
+  for (const int samples : {1, 2, 4, 8, 16}) {
+    const auto locations = standard(samples);
     Scene scene;
     scene.setting.target = {5, 5};
     scene.setting.sample_locations = locations;

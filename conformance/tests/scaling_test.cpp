@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "conformance/bench/bench.h"
+#include "conformance/tests/temporary_folder.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -22,7 +23,7 @@ rasterizer::Plan plan_for(const TaskCosts& costs, int threads, double least_help
   return {rasterizer::TileGrid(*rasterizer::Target::make(1'000, 1'000), tiles, 1),
           threads,
           1,
-          costs.parts.front().size(),
+          rasterizer::Parts::even(costs.parts.front().size(), costs.parts.front().size()),
           work,
           0,
           least_help};
@@ -66,8 +67,7 @@ TEST(Scaling, APartWaitsForItsBinsAndForNoOthers) {
 }
 
 TEST(Scaling, TheCommandWritesATableAndAPicture) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "scaling_test";
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder folder;
   BenchOptions options;
   options.quick = true;
   options.scaling = folder.string();
@@ -77,7 +77,6 @@ TEST(Scaling, TheCommandWritesATableAndAPicture) {
   EXPECT_THAT(table, testing::AllOf(HasSubstr("large20k"), HasSubstr("wide200")));
   EXPECT_TRUE(std::filesystem::exists(folder / "scaling.json"));
   EXPECT_GT(std::filesystem::file_size(folder / "scaling.png"), 10'000u);
-  std::filesystem::remove_all(folder);
   options.scaling = "/proc/scaling";
   testing::internal::CaptureStderr();
   EXPECT_EQ(bench_command(options), 2);
@@ -86,12 +85,13 @@ TEST(Scaling, TheCommandWritesATableAndAPicture) {
 
 TEST(Scaling, OutputNamesWhatIsKnown) {
   const std::vector<ScalingPoint> points{
-      {"full", 200, 2, 2, 1, 4, 13, 1'000, 1'100, 600, 1.67, 1.4, WholeDraws{1.5, 1.3, 1.1, 1.95}},
+      {"full", 200, 2, 2, 1, 4, 13, 1'000, 1'100, 600, 1.67, 1.4, WholeDraws{1.5, 1.3, 1.1, 1.95, 120}},
       {"full", 200, 4, 4, 1, 4, 13, 1'000, 1'100, 300, 3.33}};
   const auto json = nlohmann::json::parse(scaling_json(points));
   EXPECT_EQ(json.at("points")[0].at("measured_speedup"), 1.5);
   EXPECT_TRUE(json["points"][1].at("measured_speedup").is_null());
-  EXPECT_THAT(scaling_table(points), testing::AllOf(HasSubstr("3.33x"), HasSubstr("-10 %"), HasSubstr("1.95x")));
+  EXPECT_THAT(scaling_table(points),
+              testing::AllOf(HasSubstr("3.33x"), HasSubstr("-10 %"), HasSubstr("1.95x"), HasSubstr("120 ns")));
   EXPECT_THAT(scaling_plot_program(points, "a.png"), testing::AllOf(HasSubstr("4 3.33\n"), HasSubstr("2 1.5\n")));
 }
 

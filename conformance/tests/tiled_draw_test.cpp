@@ -29,7 +29,7 @@ struct Drawing {
   FastRasterizer fast;
   StripMask mask{target};
   TiledDraw::Memory memory;
-  Plan plan{TileGrid(target, 2, 2), 2, 2, 3, std::vector<double>(4, 1), 0, 0};
+  Plan plan{TileGrid(target, 2, 2), 2, 2, Parts::even(3, 3), std::vector<double>(4, 1), 0, 0};
 };
 
 TEST(TiledDraw, PartsMayBeDrawnInAnyOrder) {
@@ -67,7 +67,7 @@ TEST(TiledDraw, AnyThreadsCanDoTheWork) {
       const Plan plan{TileGrid(d.target, side, side),
                       4,
                       64,
-                      11,
+                      side == 1 ? Parts::falling(32, 4, std::array{2.0, 1.0}) : Parts::even(32, 11),
                       std::vector<double>(static_cast<std::size_t>(side * side), 1),
                       0,
                       0};
@@ -87,7 +87,7 @@ TEST(TiledDraw, ASingleTileIsDrawnInPlaceAndNobodyWaitsForWhoHasNotBegun) {
   Drawing d;
   StripMask expected(d.target);
   d.fast.cover_union(d.triangles, expected);
-  const Plan plan{TileGrid(d.target, 1, 1), 2, 1, 5, {5}, 0, 2.5};
+  const Plan plan{TileGrid(d.target, 1, 1), 2, 1, Parts::even(5, 5), {5}, 0, 2.5};
   TiledDraw::Canvas own(0), other(1);
   {
     TiledDraw draw(d.fast, d.triangles, plan, d.mask, d.memory);
@@ -97,9 +97,10 @@ TEST(TiledDraw, ASingleTileIsDrawnInPlaceAndNobodyWaitsForWhoHasNotBegun) {
     EXPECT_NE(rows(d.mask), std::vector<std::uint64_t>(d.target.mask_words()));
     EXPECT_NE(rows(d.mask), rows(expected));
     draw.draw({0, 3}, other);
-    draw.finish(own);  // adds what the other one has, too
+    std::jthread other_thread([&] { draw.finish(other); });
+    draw.finish(own);  // waits for the other one
+    other_thread.join();
     EXPECT_EQ(rows(d.mask), rows(expected));
-    draw.finish(other);
   }
   d.mask.clear();
   TiledDraw draw(d.fast, d.triangles, plan, d.mask, d.memory);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+#include "conformance/scene/standard_samples.h"
+
 namespace edgecase::conformance {
 namespace {
 
@@ -188,25 +190,11 @@ TEST(Watertight, ForgetsTheLastMesh) {
 // included.
 TEST(Watertight, ScanAgreesWithTheDefinition) {
   std::mt19937 random(11);
-  const std::vector<std::vector<SampleLocation>> patterns = {{{8, 8}},
-                                                             {{12, 12}, {4, 4}},
-                                                             {{6, 2}, {14, 6}, {2, 10}},
-                                                             {{9, 9},
-                                                              {7, 5},
-                                                              {5, 10},
-                                                              {12, 7},
-                                                              {3, 6},
-                                                              {10, 13},
-                                                              {13, 11},
-                                                              {11, 3},
-                                                              {6, 14},
-                                                              {8, 1},
-                                                              {4, 2},
-                                                              {2, 12},
-                                                              {0, 8},
-                                                              {15, 4},
-                                                              {14, 15},
-                                                              {1, 0}}};
+  std::vector<std::vector<SampleLocation>> patterns = {{{6, 2}, {14, 6}, {2, 10}}};
+  for (const int samples : {1, 2, 16}) {
+    const auto standard = standard_sample_locations(samples);
+    patterns.emplace_back(standard.begin(), standard.end());
+  }
   int judged = 0;
   for (int round = 0; round < 400; ++round) {
     const Setting setting{{9 + round % 7, 10}, patterns[static_cast<std::size_t>(round) % patterns.size()]};

@@ -1,11 +1,11 @@
 // Agenda: which part of which tile a thread draws next. The one policy that the threads follow and that its model,
 // conformance/bench/scaling.h, plays through.
 //
-// A tile's parts are what ranges of the list put into it, in order. A thread keeps its tile until its parts are taken;
-// then it takes the tile with the most work that nobody has begun; and when all are begun it helps with the one of
-// which the most work is left, in a mask of its own. So a tile is never shared while there is another, and nobody is
-// idle as long as there is work left that is worth adding another mask to the tile: whatever the tiles' work, and even
-// if there is but one.
+// A tile's parts are what ranges of the list put into it (parts.h), in order. A thread keeps its tile until its parts
+// are taken; then it takes the tile with the most work that nobody has begun; and when all are begun it helps with the
+// one of which the most work is left, in a mask of its own. So a tile is never shared while there is another, and
+// nobody is idle as long as there is work left that is worth adding another mask to the tile: whatever the tiles' work,
+// and even if there is but one.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,8 @@
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "rasterizer/threads/parts.h"
 
 namespace edgecase::rasterizer {
 
@@ -26,9 +28,9 @@ struct Part {
 
 class Agenda {
  public:
-  /// `work`: of each tile, in ns; `parts`: of each tile; `least_help`: what must be left of it for another thread to
-  /// join.
-  Agenda(std::span<const double> work, std::size_t parts, double least_help)
+  /// `work`: of each tile, in ns; `parts`: of each tile, outlive this; `least_help`: what must be left of it for
+  /// another thread to join.
+  Agenda(std::span<const double> work, const Parts& parts, double least_help)
       : work_(work.begin(), work.end()),
         parts_(parts),
         least_help_(least_help),
@@ -65,10 +67,9 @@ class Agenda {
   static std::size_t index(int tile) { return static_cast<std::size_t>(tile); }
 
   std::optional<Part> take(int tile) {
-    auto& parts = taken_[index(tile)].parts;
-    if (parts.load(std::memory_order_relaxed) >= parts_) return std::nullopt;
-    const std::size_t number = parts.fetch_add(1, std::memory_order_relaxed);
-    if (number >= parts_) return std::nullopt;
+    // Without a look at whether there is one: that would fetch the cache line twice.
+    const std::size_t number = taken_[index(tile)].parts.fetch_add(1, std::memory_order_relaxed);
+    if (number >= parts_.count()) return std::nullopt;
     return Part{tile, number};
   }
 
@@ -77,15 +78,15 @@ class Agenda {
     double most = least_help_;
     for (const int tile : order_) {
       const std::size_t taken = taken_[index(tile)].parts.load(std::memory_order_relaxed);
-      if (taken >= parts_) continue;
-      const double left = work_[index(tile)] * static_cast<double>(parts_ - taken) / static_cast<double>(parts_);
+      if (taken >= parts_.count()) continue;
+      const double left = work_[index(tile)] * (1 - parts_.work_before(taken));
       if (left > most) most = left, best = tile;
     }
     return best;
   }
 
   std::vector<double> work_;
-  std::size_t parts_;
+  const Parts& parts_;
   double least_help_;
   std::vector<int> order_;
   std::vector<Taken> taken_;

@@ -15,7 +15,6 @@ using Triangle = FixedTriangle<Format16_8>;
 // Costs in ns, as measured on a Zen 4 core with AVX-512. Only their ratios decide, and a factor of two in one of them
 // changes little: between the right plan and the next one the difference is small.
 constexpr double kSetup = 6, kRow = 0.6, kPixel = 0.001;  // of drawing a triangle
-constexpr double kGroup = 120;                            // of setting up one that is alone in its vector
 constexpr double kBin = 2.6, kBinBound = 0.22;            // of binning one, and for each column and row of tiles
 constexpr double kCopy = 1.5;                             // of a triangle in a bin
 constexpr double kCutRows = 60;                           // of a cut between rows of a triangle, at most
@@ -36,6 +35,7 @@ double move_word(double bytes) { return bytes <= (1 << 20) ? 0.1 : 0.3; }
 
 /// A triangle's pixels on the target.
 struct Sample {
+  std::size_t number;  ///< among those looked at
   int left, top, right, bottom;
   double work;
   double columns() const { return right - left; }
@@ -48,6 +48,7 @@ struct Samples {
   static constexpr std::size_t kMost = 64;
   std::array<Sample, kMost> samples;
   std::size_t size = 0;
+  std::size_t looked_at = 0;
   double each = 0;
   const Sample* begin() const { return samples.data(); }
   const Sample* end() const { return samples.data() + size; }
@@ -61,13 +62,18 @@ Samples sample(std::span<const Triangle> triangles, const Target& target, std::s
   // The first pixel whose centre is at or right of v, for vertices in units of 2^-8 px.
   const auto pixel = [](int v, int extent) { return std::clamp((v + 127) >> 8, 0, extent); };
   Samples list;
+  list.looked_at = std::max<std::size_t>(count, 1);
   list.each = static_cast<double>(triangles.size()) / static_cast<double>(std::max<std::size_t>(count, 1));
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [a, b, c] = triangles[triangles.size() * i / count];
     const int ax = a.x.value(), ay = a.y.value(), bx = b.x.value(), by = b.y.value(), cx = c.x.value(),
               cy = c.y.value();
-    Sample s{pixel(std::min({ax, bx, cx}), width), pixel(std::min({ay, by, cy}), height),
-             pixel(std::max({ax, bx, cx}), width), pixel(std::max({ay, by, cy}), height), 0};
+    Sample s{i,
+             pixel(std::min({ax, bx, cx}), width),
+             pixel(std::min({ay, by, cy}), height),
+             pixel(std::max({ax, bx, cx}), width),
+             pixel(std::max({ay, by, cy}), height),
+             0};
     if (s.left >= s.right || s.top >= s.bottom) continue;
     const double doubled_area =
         static_cast<double>(bx - ax) * static_cast<double>(cy - ay) - static_cast<double>(cx - ax) * (by - ay);
@@ -90,7 +96,7 @@ double one_thread_time(const Samples& samples, const Target& target) {
 /// Of a triangle.
 double most_work(const Target& target) {
   const double width = target.width().value(), height = target.height().value();
-  const Sample whole{0, 0, target.width().value(), target.height().value(), 0};
+  const Sample whole{0, 0, 0, target.width().value(), target.height().value(), 0};
   return kSetup + kRow * height + kPixel * width * height + whole.lines() * miss(bytes_of(target));
 }
 
@@ -178,40 +184,46 @@ double finish_time(double total, int threads, Helpers helpers) {
   return total / threads;
 }
 
-/// Triangles of a chunk that is a part of a single tile.
-std::size_t chunk_of_whole(std::size_t triangles, std::size_t threads, double work) {
-  // The last of so many parts of a thread keeps the others waiting for 1/64 of its time on average.
-  constexpr std::size_t kPartsPerThread = 32;
-  const std::size_t chunk = std::max<std::size_t>(triangles / (threads * kPartsPerThread), 1);
-  if (chunk >= kMaxLanes) return chunk / kMaxLanes * kMaxLanes;
-  // Vectors that are not full cost their setup; full ones are larger parts to wait for. Per thread:
-  const double count = static_cast<double>(triangles), all = static_cast<double>(threads);
-  const double filled = static_cast<double>(chunk) / kMaxLanes;
-  const double half_full = count / (filled * kMaxLanes) * kGroup * (1 - filled) / all;
-  const double longer = (1 - filled) * kMaxLanes / 2 * work / count;
-  return half_full > longer ? kMaxLanes : chunk;
+/// Triangles of a single tile's chunk, the least part of it: the last ones that two threads draw keep one of them
+/// waiting for 1/256 of its time on average. Full vectors, if it is many.
+std::size_t chunk_of_whole(std::size_t triangles, std::size_t threads) {
+  constexpr std::size_t kChunksPerThread = 128;
+  const std::size_t chunk = std::max<std::size_t>(triangles / (threads * kChunksPerThread), 1);
+  return chunk < kMaxLanes ? chunk : chunk / kMaxLanes * kMaxLanes;
+}
+
+/// Of a single tile. Samples are evenly spread over the list, but for those that are nowhere on the target.
+Parts parts_of_whole(const Samples& samples, std::size_t chunks, std::size_t threads) {
+  // One triangle says little about those around it, and several tell a list sorted by size.
+  const std::size_t samples_of_stretch = samples.each > 1 ? 8 : 1;
+  std::array<double, Samples::kMost> work;
+  const auto stretches = std::span(work).first((samples.looked_at + samples_of_stretch - 1) / samples_of_stretch);
+  std::ranges::fill(stretches, kSetup);
+  for (const Sample& s : samples) stretches[s.number / samples_of_stretch] += s.work;
+  return Parts::falling(chunks, threads, stretches);
 }
 
 Plan finish_plan(const Samples& samples, std::size_t triangles, const TileGrid& grid, int threads,
                  const Estimate& estimate, Helpers helpers) {
-  // In bins, so many chunks that a bin holds more than a few triangles; parts as above.
+  // In bins, so many chunks that a bin holds more than a few triangles, and parts so small that a thread that helps
+  // with the last tile is kept waiting for 1/64 of its time on average.
   constexpr std::size_t kPartsPerThread = 32, kChunksPerThread = 8;
   constexpr std::size_t kMostInChunk = 4096;
   const auto tiles = static_cast<std::size_t>(grid.count()), all = static_cast<std::size_t>(threads);
   std::size_t chunk = std::max<std::size_t>(triangles / (all * kChunksPerThread), 1);
   if (tiles == 1) {
-    chunk = chunk_of_whole(triangles, all, estimate.drawing);
+    chunk = chunk_of_whole(triangles, all);
   } else if (chunk > kReachBlock) {
     chunk = chunk / kReachBlock * kReachBlock;
   }
   chunk = std::min(chunk, kMostInChunk);
   const std::size_t chunks = std::max<std::size_t>((triangles + chunk - 1) / chunk, 1);
-  const std::size_t parts = tiles == 1 ? chunks : std::clamp<std::size_t>(all * kPartsPerThread / tiles, 1, chunks);
   const double tile_words = words_of(grid.tile(0));
   return {grid,
           threads,
           chunk,
-          parts,
+          tiles == 1 ? parts_of_whole(samples, chunks, all)
+                     : Parts::even(chunks, std::clamp<std::size_t>(all * kPartsPerThread / tiles, 1, chunks)),
           tiles == 1 ? std::vector{estimate.drawing} : tile_work(samples, grid),
           finish_time(estimate.total, threads, helpers),
           2 * move_word(static_cast<double>(tiles) * tile_words * 4) * tile_words};
@@ -243,7 +255,8 @@ Plan make_plan(std::span<const Triangle> triangles, const Target& target, int th
   const Samples samples = sample(triangles, target, Samples::kMost);
   const double one_thread = one_thread_time(samples, target);
   const TileGrid whole(target, 1, 1);
-  const Plan alone{whole, 1, std::max<std::size_t>(triangles.size(), 1), 1, {one_thread}, one_thread, 0};
+  const Plan alone{whole,      1, std::max<std::size_t>(triangles.size(), 1), Parts::even(1, 1), {one_thread},
+                   one_thread, 0};
   threads = static_cast<int>(std::min(static_cast<double>(threads), one_thread / kLeastWork));
   if (threads <= 1 || !may_pay(triangles, target)) return alone;
   const auto [grid, sum] = best_grid(samples, triangles.size(), target, threads);

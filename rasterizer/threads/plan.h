@@ -16,6 +16,7 @@
 
 #include "rasterizer/fast/tile_grid.h"
 #include "rasterizer/format.h"
+#include "rasterizer/threads/parts.h"
 
 namespace edgecase::rasterizer {
 
@@ -25,8 +26,9 @@ struct Plan {
   int threads;
   /// Triangles of a chunk, at least one.
   std::size_t chunk;
-  /// Into so many parts of about as many chunks each tile's drawing is divided; from 1 to the number of chunks.
-  std::size_t parts;
+  /// Of the chunks: what is drawn of a tile at once. Of falling work if there is but one tile. In a grid that has
+  /// several, threads are done with one tile after the other, and share only the last ones: there they are even.
+  Parts parts;
   /// Estimated ns of drawing each tile.
   std::vector<double> tile_work;
   /// Estimated ns of the whole on these threads.

@@ -10,7 +10,9 @@
 // left (agenda.h). What limits many threads:
 //   - before they start, a us for the plan; and if they sleep, 8 us for the call that wakes them and 25 to 40 until
 //     they are there. oneTBB lets them wait for a draw for 0.1 to 0.2 ms, within which they begin after one us;
-//   - at the end, one part of a tile, 1/32 of a thread's share: on average half of that is lost;
+//   - whenever a thread takes a part of a tile that others draw, too, a cache line: so parts are few, and of falling
+//     size (parts.h). Of the last one half is lost on average: it is 1/128 to 1/64 of a thread's share of a single tile, and
+//     1/32 of several;
 //   - in total, the triangles on tiles' borders, which are drawn twice, and a mask for each tile and each helper.
 // `edgecase bench --scaling` plays these tasks, with the times they take on one thread, through the agenda for up to
 // 64 threads; conformance/bench/scaling.h says what it leaves out.

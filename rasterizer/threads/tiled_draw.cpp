@@ -44,13 +44,13 @@ void TiledDraw::work(Canvas& canvas) {
   finish(canvas);
 }
 
-std::span<const TiledDraw::Triangle> TiledDraw::triangles_of(std::size_t chunk) const {
-  const std::size_t first = chunk * plan_.chunk;
-  return triangles_.subspan(first, std::min(plan_.chunk, triangles_.size() - first));
+std::span<const TiledDraw::Triangle> TiledDraw::triangles_of(std::size_t chunk, std::size_t end) const {
+  const std::size_t first = std::min(chunk * plan_.chunk, triangles_.size());
+  return triangles_.subspan(first, std::min(end * plan_.chunk, triangles_.size()) - first);
 }
 
 void TiledDraw::bin(std::size_t chunk) {
-  const std::span<const Triangle> triangles = triangles_of(chunk);
+  const std::span<const Triangle> triangles = triangles_of(chunk, chunk + 1);
   const auto columns = static_cast<std::size_t>(plan_.grid.columns()),
              rows = static_cast<std::size_t>(plan_.grid.rows());
   const std::size_t blocks = divided_up(triangles.size(), kReachBlock);
@@ -87,25 +87,24 @@ void TiledDraw::bin(std::size_t chunk) {
 }
 
 void TiledDraw::draw(const Part& part, Canvas& canvas) {
-  if (binned() && canvas.tile_ != part.tile) finish(canvas);
-  for (std::size_t chunk = first_chunk(part.number); chunk < first_chunk(part.number + 1); ++chunk) {
-    if (binned()) {
-      draw_bin(part.tile, chunk, canvas);
-    } else {
-      draw_whole(chunk, canvas);
-    }
+  const std::size_t begin = plan_.parts.begin(part.number), end = plan_.parts.begin(part.number + 1);
+  if (!binned()) {
+    draw_whole(triangles_of(begin, end), canvas);
+    ++canvas.drawn_;
+    return;
   }
-  if (!binned()) drawn_.fetch_add(1, std::memory_order_release);
+  if (canvas.tile_ != part.tile) finish(canvas);
+  for (std::size_t chunk = begin; chunk < end; ++chunk) draw_bin(part.tile, chunk, canvas);
 }
 
-void TiledDraw::draw_whole(std::size_t chunk, Canvas& canvas) {
-  if (in_place(canvas)) return fast_.cover_union(triangles_of(chunk), mask_);
+void TiledDraw::draw_whole(std::span<const Triangle> triangles, Canvas& canvas) {
+  if (in_place(canvas)) return fast_.cover_union(triangles, mask_);
   if (canvas.tile_ < 0) {
     canvas.tile_ = 0;
     canvas.mask_.begin(plan_.grid.tile(0));
     apart_[apart_count_.fetch_add(1, std::memory_order_relaxed)] = &canvas;
   }
-  fast_.cover_tile(triangles_of(chunk), canvas.mask_);
+  fast_.cover_tile(triangles, canvas.mask_);
 }
 
 void TiledDraw::draw_bin(int tile, std::size_t chunk, Canvas& canvas) const {
@@ -146,20 +145,23 @@ void TiledDraw::draw_waiting(Canvas& canvas) const {
 
 void TiledDraw::add_canvases() {
   // Who has taken a part is drawing it at this moment: nobody waits for a thread that has not begun.
-  while (drawn_.load(std::memory_order_acquire) < plan_.parts) std::this_thread::yield();
+  while (drawn_.load(std::memory_order_acquire) < plan_.parts.count()) std::this_thread::yield();
   const std::size_t count = apart_count_.load(std::memory_order_relaxed);
   if (count == 0) return;
   const auto strips = static_cast<std::size_t>(mask_.strips().count);
-  for (std::size_t first = next_to_add_.fetch_add(kStripsAtOnce, std::memory_order_relaxed); first < strips;
-       first = next_to_add_.fetch_add(kStripsAtOnce, std::memory_order_relaxed)) {
+  // Twice as many groups as threads: it takes all of them as long.
+  const std::size_t group = std::max(strips / (2 * static_cast<std::size_t>(plan_.threads)), kStripsAtOnce);
+  for (std::size_t first = next_to_add_.fetch_add(group, std::memory_order_relaxed); first < strips;
+       first = next_to_add_.fetch_add(group, std::memory_order_relaxed)) {
     for (std::size_t i = 0; i < count; ++i) {
-      fast_.move_strips(apart_[i]->mask_, mask_, first, std::min(first + kStripsAtOnce, strips));
+      fast_.move_strips(apart_[i]->mask_, mask_, first, std::min(first + group, strips));
     }
   }
 }
 
 void TiledDraw::finish(Canvas& canvas) {
   if (!binned()) {
+    if (canvas.drawn_ > 0) drawn_.fetch_add(std::exchange(canvas.drawn_, 0), std::memory_order_release);
     add_canvases();
     canvas.tile_ = -1;
     return;

@@ -59,6 +59,7 @@ class TiledDraw {
     friend class TiledDraw;
     std::size_t number_;
     int tile_ = -1;
+    std::size_t drawn_ = 0;  ///< parts of a single tile, not counted yet
     TileMask mask_;
     /// Fewer than fill a vector, of the last bin.
     std::size_t waiting_ = 0;
@@ -83,22 +84,22 @@ class TiledDraw {
   /// Each chunk is to be binned once, by any thread.
   void bin(std::size_t chunk);
 
-  /// Draws a part of a tile, from the chunks first_chunk(part.number) to before first_chunk(part.number + 1); waits for
-  /// their bins. If `canvas` has another tile, that is finished first. Each part is to be drawn once, by any thread,
-  /// each thread having a canvas of its own.
+  /// Draws a part of a tile, from the chunks of the plan's part of that number; waits for their bins. If `canvas` has
+  /// another tile, that is finished first. Each part is to be drawn once, by any thread, each thread having a canvas of
+  /// its own.
   void draw(const Part& part, Canvas& canvas);
-  std::size_t first_chunk(std::size_t part) const { return chunks_ * part / plan_.parts; }
 
-  /// Adds what `canvas` has to the mask, and leaves it without a tile. If there is but one tile: waits until all of it
-  /// is drawn, and then helps to add every canvas to the mask.
+  /// Adds what `canvas` has to the mask, and leaves it without a tile. If there is but one tile: waits until all of its
+  /// parts are on canvases that are finished or about to be, and then helps to add every canvas to the mask.
   void finish(Canvas& canvas);
 
  private:
-  std::span<const Triangle> triangles_of(std::size_t chunk) const;
+  /// Of chunks `chunk` to before `end`.
+  std::span<const Triangle> triangles_of(std::size_t chunk, std::size_t end) const;
   void draw_bin(int tile, std::size_t chunk, Canvas& canvas) const;
   void draw_waiting(Canvas& canvas) const;
   void draw_in_order(std::span<const Triangle> triangles, Canvas& canvas) const;
-  void draw_whole(std::size_t chunk, Canvas& canvas);
+  void draw_whole(std::span<const Triangle> triangles, Canvas& canvas);
   void add_canvases();
   bool in_place(const Canvas& canvas) const { return !binned() && canvas.number_ == 0; }
 
@@ -112,7 +113,8 @@ class TiledDraw {
   alignas(64) std::atomic<std::size_t> next_to_bin_{0};
 
   // Of a single tile: the canvases that are not in place and have been drawn into, and how many parts are drawn. A
-  // canvas is noted before its first part counts as drawn.
+  // canvas is noted before its parts count as drawn, which they do when its thread finds no other: each time that a
+  // thread counts, it takes the cache line from another one.
   std::vector<Canvas*> apart_;
   std::atomic<std::size_t> apart_count_{0};
   alignas(64) std::atomic<std::size_t> drawn_{0};
