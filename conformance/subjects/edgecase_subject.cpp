@@ -198,11 +198,12 @@ class EdgecaseSubject : public Subject {
     return std::nullopt;
   }
 
-  // Part by part, so that what is made of each stays in the cache.
+  // Part by part, so that what is made of each stays in the cache. Without subpixel bits half a pixel is no grid unit, and
+  // subtracting it first makes a tie of a grid point.
   std::optional<bool> draws(const Scene& scene, const MaskBatchView& observed) override {
     static_assert(rasterizer::FastRasterizer::kGridReach * (1 << Fixed::kSubpixelBits) <= kGridReach);
     const int bits = scene.rules.subpixel_bits;
-    if (!fast_ || bits < 0 || bits > Fixed::kSubpixelBits || scene.setting.cull != CullMode::none) return std::nullopt;
+    if (!fast_ || bits < 1 || bits > Fixed::kSubpixelBits || scene.setting.cull != CullMode::none) return std::nullopt;
     if (refusal_but_for_snap(scene)) return std::nullopt;
     const auto target = rasterizer::Target::make(scene.setting.target.width, scene.setting.target.height);
     const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
