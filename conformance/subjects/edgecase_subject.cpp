@@ -198,8 +198,8 @@ class EdgecaseSubject : public Subject {
     return std::nullopt;
   }
 
-  // Part by part, so that what is made of each stays in the cache. Without subpixel bits half a pixel is no grid unit, and
-  // subtracting it first makes a tie of a grid point.
+  // Part by part, so that what is made of each stays in the cache. Without subpixel bits half a pixel is no grid unit,
+  // and subtracting it first makes a tie of a grid point.
   std::optional<bool> draws(const Scene& scene, const MaskBatchView& observed) override {
     static_assert(rasterizer::FastRasterizer::kGridReach * (1 << Fixed::kSubpixelBits) <= kGridReach);
     const int bits = scene.rules.subpixel_bits;
