@@ -43,6 +43,11 @@ class WatertightChecker {
   /// `subpixel_bits` of the grid that the meshes are snapped to, 0 to 16.
   WatertightChecker(const Setting& setting, int subpixel_bits);
 
+  /// Whether another one made with these would do the same.
+  bool is_for(const Setting& setting, int subpixel_bits) const {
+    return setting_ == setting && subpixel_bits_ == subpixel_bits;
+  }
+
   /// Checks one mesh and adds the outcome to `total`. `masks` holds the observed mask of each triangle, in order, as
   /// MaskBatch::data() has them. `first_triangle` is the index that the first triangle has in the report. Samples in
   /// `open`, a mask, may lie inside or outside; none do if it is empty. They count as those on the outline do.

@@ -1,6 +1,9 @@
 // The append functions of the generators; see their files for what each makes and why.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "conformance/generators/lattice.h"
 #include "conformance/generators/random.h"
 #include "conformance/scene/scene.h"
@@ -44,5 +47,11 @@ Append turned_across;
 Append turned_beside_across;
 Append strips;
 Append fans;
+
+/// As Generator::append_each.
+using AppendEach = void(const Lattice& lattice, const Random& family, std::uint64_t first, std::size_t count,
+                        Scene& scene);
+
+AppendEach tiny_each;
 
 }  // namespace edgecase::conformance::families

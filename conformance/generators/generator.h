@@ -2,6 +2,7 @@
 // needs none of the scenes before it, so that a run can be streamed, split, resumed, and any one scene drawn again.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -24,6 +25,11 @@ struct Generator {
   void (*append)(const Lattice& lattice, Random& random, Scene& scene);
   /// Only of generators in clip space: what their scenes' ClipGeometry has.
   std::optional<Viewport> viewport{};
+  /// Only of some whose scenes are one triangle each: what append() makes of scenes `first` to `first + count - 1`, in
+  /// vectors, because drawing triangle by triangle would cost a driver's tests more than they may take. `family`: what
+  /// the scenes' streams are the items of.
+  void (*append_each)(const Lattice& lattice, const Random& family, std::uint64_t first, std::size_t count,
+                      Scene& scene) = nullptr;
 };
 
 /// All generators of window positions, in the order in which they are listed and run.
@@ -46,7 +52,25 @@ class SceneStream {
   /// setting must be the generator's; a generator in clip space gives the scene its viewport.
   void append(std::uint64_t index, Scene& scene) const;
 
+  /// The same for scenes from number `index` on until `scene` has `triangles` triangles or more; calls begin(number,
+  /// its first triangle) before each. Returns the number of the next scene.
+  template <class Begin>
+  std::uint64_t fill(std::uint64_t index, std::size_t triangles, Scene& scene, const Begin& begin) const {
+    std::size_t has = triangle_count(scene);
+    if (generator_.append_each != nullptr && has < triangles) {
+      append_each(index, triangles - has, scene);
+      for (; has < triangles; ++has) begin(index++, has);
+    }
+    for (; has < triangles; has = triangle_count(scene)) {
+      begin(index, has);
+      append(index++, scene);
+    }
+    return index;
+  }
+
  private:
+  void append_each(std::uint64_t first, std::size_t count, Scene& scene) const;
+
   const Generator& generator_;
   Random random_;
 };

@@ -108,7 +108,13 @@ std::span<const Generator> generators() {
                 "needles up to a few subpixels wide, most of them passing close to pixel centres",
                 {},
                 families::sliver},
-      Generator{"tiny", "tiny", "triangles under a pixel, most of them around a pixel centre", {}, families::tiny},
+      Generator{"tiny",
+                "tiny",
+                "triangles under a pixel, most of them around a pixel centre",
+                {},
+                families::tiny,
+                {},
+                families::tiny_each},
       Generator{"samples2", "samples", kSampleTies, multisampled(2), families::sample_ties},
       Generator{"samples4", "samples", kSampleTies, multisampled(4), families::sample_ties},
       Generator{"samples8", "samples", kSampleTies, multisampled(8), families::sample_ties},
@@ -236,6 +242,11 @@ void SceneStream::append(std::uint64_t index, Scene& scene) const {
   Random random = random_.item(index);
   if (generator_.viewport && !scene.clip) scene.clip = ClipGeometry{*generator_.viewport, {}};
   generator_.append(lattice, random, scene);
+}
+
+void SceneStream::append_each(std::uint64_t first, std::size_t count, Scene& scene) const {
+  const Lattice lattice(scene.setting.target, scene.rules.subpixel_bits);
+  generator_.append_each(lattice, random_, first, count, scene);
 }
 
 void append_scene(const Generator& generator, std::uint64_t seed, std::uint64_t index, Scene& scene) {

@@ -27,6 +27,8 @@ class Lattice {
   Lattice(const Extent& target, int bits)
       : target_(target), bits_(bits), unit_(1.0f / static_cast<float>(std::int64_t{1} << bits)) {}
 
+  const Extent& target() const { return target_; }
+  float unit() const { return unit_; }  ///< in pixels
   std::int64_t pixel() const { return std::int64_t{1} << bits_; }
   std::int64_t half_pixel() const { return pixel() / 2; }
   std::int64_t width() const { return target_.width * pixel(); }
@@ -55,7 +57,7 @@ class Lattice {
  private:
   Extent target_;
   int bits_;
-  float unit_;  ///< 2^-bits
+  float unit_;
 };
 
 }  // namespace edgecase::conformance

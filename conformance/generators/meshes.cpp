@@ -115,15 +115,24 @@ void strip(const Lattice& lattice, Random& random, Scene& scene) {
   };
   const LatticePoint side{across(-dy), across(dx)};
 
+  // Each vertex becomes a position once, and is a corner of three triangles.
+  struct Vertex {
+    LatticePoint point;
+    Position position;
+  };
+  const auto vertex = [&](std::int64_t x, std::int64_t y) { return Vertex{{x, y}, lattice.position({x, y})}; };
   const std::size_t first = scene.triangles.size();
-  LatticePoint left = from;
-  LatticePoint right{from.x + side.x, from.y + side.y};
+  Vertex left = vertex(from.x, from.y);
+  Vertex right = vertex(from.x + side.x, from.y + side.y);
   for (std::int64_t i = 1; i <= segments; ++i) {
-    const LatticePoint next_left{from.x + dx * i / segments, from.y + dy * i / segments};
-    const LatticePoint next_right{next_left.x + side.x, next_left.y + side.y};
-    if (orientation(left, next_left, right) <= 0 || orientation(next_left, next_right, right) <= 0) continue;
-    scene.triangles.push_back(lattice.triangle(left, next_left, right));
-    scene.triangles.push_back(lattice.triangle(right, next_left, next_right));
+    const Vertex next_left = vertex(from.x + dx * i / segments, from.y + dy * i / segments);
+    const Vertex next_right = vertex(next_left.point.x + side.x, next_left.point.y + side.y);
+    if (orientation(left.point, next_left.point, right.point) <= 0 ||
+        orientation(next_left.point, next_right.point, right.point) <= 0) {
+      continue;
+    }
+    scene.triangles.push_back({left.position, next_left.position, right.position});
+    scene.triangles.push_back({right.position, next_left.position, next_right.position});
     left = next_left;
     right = next_right;
   }

@@ -30,10 +30,14 @@ class Random {
     return random;
   }
 
+  static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;
+  static constexpr std::uint64_t kFirstFactor = 0xbf58476d1ce4e5b9;
+  static constexpr std::uint64_t kSecondFactor = 0x94d049bb133111eb;
+
   std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    std::uint64_t z = state_ += kStep;
+    z = (z ^ (z >> 30)) * kFirstFactor;
+    z = (z ^ (z >> 27)) * kSecondFactor;
     return z ^ (z >> 31);
   }
 

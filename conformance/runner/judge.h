@@ -128,6 +128,7 @@ class Judge {
   std::vector<std::uint64_t> predicted_;
   std::vector<std::uint64_t> part_;
   std::vector<GridTriangle> snapped_;
+  std::optional<WatertightChecker> checker_;  ///< for the setting of the last batch with meshes
 };
 
 }  // namespace edgecase::conformance

@@ -14,8 +14,9 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
   if (scene.meshes.empty() || batch.rule_set->on_edge == OnEdge::undefined) return;
   if (scene.clip) return judge_clip_meshes(batch, first_triangle, outcome);
   const float scale = std::ldexp(1.0f, scene.rules.subpixel_bits);
-  WatertightChecker checker(scene.setting, scene.rules.subpixel_bits);
-  const bool snapped_already = all_on_grid(scene.triangles, scale);
+  if (!checker_ || !checker_->is_for(scene.setting, scene.rules.subpixel_bits)) {
+    checker_.emplace(scene.setting, scene.rules.subpixel_bits);
+  }
   for (const Mesh& mesh : scene.meshes) {
     if (agreed_ && outcome.agreed_meshes++ % kMeshShare != 0) continue;
     snapped_.resize(std::max(snapped_.size(), mesh.count));
@@ -25,15 +26,15 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
         snapped_[i] = {to_grid(a), to_grid(b), to_grid(c)};
       }
     };
-    if (snapped_already) {
+    if (all_on_grid(std::span(scene.triangles).subspan(mesh.first, mesh.count), scale)) {
       snap([scale](const Position& p) { return grid_point(p, scale); });
     } else {
       snap([&](const Position& p) { return oracle::snap(scene.rules, p); });
     }
     Watertightness found;
     if (const auto open = open_samples(scene, *batch.rule_set, mesh)) {
-      checker.check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
-                    first_triangle + mesh.first, found, *open);
+      checker_->check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
+                      first_triangle + mesh.first, found, *open);
     } else {
       found.meshes = found.folded_meshes = 1;
     }

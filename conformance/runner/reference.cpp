@@ -42,6 +42,13 @@ tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t fi
 tl::expected<bool, Error> Reference::expects(const Scene& scene, std::uint64_t first_index,
                                              const MaskBatchView& observed) {
   window_.reset();
+  if (const auto same = fast_ ? fast_->draws(scene, observed) : std::nullopt) {
+    if (!*same) return false;
+    if (auto confirmed = confirm_share(scene, first_index, observed); !confirmed) {
+      return tl::unexpected(confirmed.error());
+    }
+    return true;
+  }
   const MaskLayout layout(scene.setting);
   const std::size_t most = std::max<std::size_t>(1, kPartBytes / (layout.words() * sizeof(std::uint64_t)));
   part_.setting = scene.setting;
@@ -69,9 +76,14 @@ tl::expected<void, Error> Reference::expect_window(const Scene& scene, std::uint
       oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], must[i]);
     }
   }
+  return confirm_share(scene, first_index, must);
+}
+
+tl::expected<void, Error> Reference::confirm_share(const Scene& scene, std::uint64_t first_index,
+                                                   const MaskBatchView& masks) {
   for (std::size_t i = (kOracleShare - first_index % kOracleShare) % kOracleShare; i < scene.triangles.size();
        i += kOracleShare) {
-    if (auto confirmed = confirm_window(scene, i, must[i]); !confirmed) return confirmed;
+    if (auto confirmed = confirm_window(scene, i, masks[i]); !confirmed) return confirmed;
   }
   return {};
 }

@@ -43,7 +43,8 @@ class Reference {
   tl::expected<void, Error> expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
 
   /// Whether expect() would give just the masks `observed`, padding included; the oracles have their share of it. Only
-  /// of window positions. The masks are made and compared part by part, within the processor's cache, and none is kept.
+  /// of window positions. Where the fast rasterizer cannot tell without masks, they are made and compared part by part,
+  /// within the processor's cache, and none is kept.
   tl::expected<bool, Error> expects(const Scene& scene, std::uint64_t first_index, const MaskBatchView& observed);
 
   /// Where the subject's near plane lies, as far as that is known.
@@ -71,6 +72,8 @@ class Reference {
  private:
   tl::expected<void, Error> expect_window(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
   tl::expected<void, Error> confirm_window(const Scene& scene, std::size_t index, MaskView must);
+  /// Gives the oracles their share of `scene`; `masks` as `must` of expect().
+  tl::expected<void, Error> confirm_share(const Scene& scene, std::uint64_t first_index, const MaskBatchView& masks);
   /// Fills snapped_ with the scene's vertices as its rules snap them.
   void snap_all(const Scene& scene);
 

@@ -161,10 +161,9 @@ Trial try_generator(const Generator& generator, Subject& subject, const Rules& r
     batch.scene.assembly.reset();
     batch.parts.clear();
     const std::uint64_t wanted = std::min<std::uint64_t>(full, options.count - done);
-    while (triangle_count(batch.scene) < wanted) {
-      batch.parts.push_back({index, triangle_count(batch.scene)});
-      scenes.append(index++, batch.scene);
-    }
+    index = scenes.fill(index, wanted, batch.scene, [&](std::uint64_t number, std::size_t first) {
+      batch.parts.push_back({number, first});
+    });
     trial.skipped = judge.refusal(batch.scene, rule_set);
     if (trial.skipped) break;
     if (auto judged = judge.judge(batch, done, trial.outcome); !judged) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "conformance/scene/coordinates.h"
+#include "conformance/scene/grid.h"
 #include "conformance/subjects/family_subject.h"
 #include "rasterizer/fast/fast.h"
 #include "rasterizer/rasterizer.h"
@@ -17,11 +19,19 @@ namespace edgecase::conformance {
 namespace {
 
 constexpr int kIntegerBits = 16;
+/// Masks that are compared at once: half of what the usual second-level cache holds at least.
+constexpr std::size_t kPartBytes = std::size_t{1} << 17;
 constexpr std::size_t kFormats = 17;  // subpixel bits 0 to 16
 
 rasterizer::Triangle to_rasterizer(const Triangle& triangle) {
   const auto& [v0, v1, v2] = triangle;
   return {{{v0.x, v0.y}, {v1.x, v1.y}, {v2.x, v2.y}}};
+}
+
+/// The same memory: both are six numbers, which snap_on_grid() reads as vectors.
+std::span<const rasterizer::Triangle> in_place(std::span<const Triangle> triangles) {
+  static_assert(sizeof(Triangle) == sizeof(rasterizer::Triangle));
+  return {reinterpret_cast<const rasterizer::Triangle*>(triangles.data()), triangles.size()};
 }
 
 using Failure = std::optional<rasterizer::InputError>;
@@ -68,7 +78,7 @@ Failure draw_into(const View& view, const Scene& scene, MaskBatch& masks) {
 
 /// Calls draw(view) with the view that asks for what `setting` asks for and no more.
 template <class Draw>
-Failure with_view(const Setting& setting, const rasterizer::Target& target, const Draw& draw) {
+auto with_view(const Setting& setting, const rasterizer::Target& target, const Draw& draw) {
   using rasterizer::CentreSample, rasterizer::SamplePattern, rasterizer::Scissor, rasterizer::View;
   const bool centre = setting.samples() == 1 && setting.sample_locations[0] == SampleLocation{};
   const auto samples = *sample_pattern(setting);
@@ -84,11 +94,15 @@ Failure draw_all(const Scene& scene, const rasterizer::Target& target, MaskBatch
   return with_view(scene.setting, target, [&](const auto& view) { return draw_into<F>(view, scene, masks); });
 }
 
+using Fixed = rasterizer::Format16_8;
+using FixedTriangle = rasterizer::FixedTriangle<Fixed>;
+
 /// The fast rasterizer, and the triangles of its last list: the memory is used again from list to list.
 struct Fast {
   rasterizer::FastRasterizer rasterizer;
   std::vector<rasterizer::Triangle> triangles{};
-  std::vector<rasterizer::FixedTriangle<rasterizer::Format16_8>> snapped{};
+  std::vector<FixedTriangle> snapped{};
+  std::vector<std::uint64_t> masks{};
 };
 
 /// The same in vectors. Vertices on a grid coarser than that of 16.8 lie on that one, too.
@@ -122,6 +136,19 @@ Failure draw_fast(Fast& fast, const Scene& scene, const rasterizer::Target& targ
       fast.rasterizer.cover_each(fast.snapped, view, masks.data());
       return std::nullopt;
     });
+  }
+}
+
+/// Whether `masks` are those of `triangles`.
+template <class View>
+bool draws_just(Fast& fast, std::span<const FixedTriangle> triangles, const View& view,
+                std::span<const std::uint64_t> masks) {
+  if constexpr (std::is_same_v<View, rasterizer::View<>>) {
+    return fast.rasterizer.first_difference(triangles, view.target, masks) == triangles.size();
+  } else {
+    fast.masks.resize(masks.size());
+    fast.rasterizer.cover_each(triangles, view, fast.masks);
+    return std::ranges::equal(fast.masks, masks);
   }
 }
 
@@ -159,16 +186,7 @@ class EdgecaseSubject : public Subject {
   const SubjectInfo& info() const override { return info_; }
 
   std::optional<std::string> refusal(const Scene& scene) const override {
-    const Setting& setting = scene.setting;
-    if (!rasterizer::Target::make(setting.target.width, setting.target.height)) {
-      return fmt::format("target {}x{} is not from 1 to {} pixels a side", setting.target.width, setting.target.height,
-                         info_.max_target);
-    }
-    if (setting.samples() < 1 || setting.samples() > rasterizer::kMaxSamples) {
-      return fmt::format("{} samples a pixel", setting.samples());
-    }
-    if (scene.clip) return "clip space";
-    if (!sample_pattern(setting)) return "a sample off the sixteenths of a pixel";
+    if (auto refused = refusal_but_for_snap(scene)) return refused;
     if (scene.rules.rounding != SnapRounding::nearest_even || scene.rules.half_pixel_first) {
       return "snaps to nearest even only";
     }
@@ -178,6 +196,30 @@ class EdgecaseSubject : public Subject {
       return rasterizer::describe(*error);
     }
     return std::nullopt;
+  }
+
+  // Part by part, so that what is made of each stays in the cache. Without subpixel bits half a pixel is no grid unit,
+  // and subtracting it first makes a tie of a grid point.
+  std::optional<bool> draws(const Scene& scene, const MaskBatchView& observed) override {
+    static_assert(rasterizer::FastRasterizer::kGridReach * (1 << Fixed::kSubpixelBits) <= kGridReach);
+    const int bits = scene.rules.subpixel_bits;
+    if (!fast_ || bits < 1 || bits > Fixed::kSubpixelBits || scene.setting.cull != CullMode::none) return std::nullopt;
+    if (refusal_but_for_snap(scene)) return std::nullopt;
+    const auto target = rasterizer::Target::make(scene.setting.target.width, scene.setting.target.height);
+    const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
+    const std::size_t most = std::max<std::size_t>(1, kPartBytes / mask_bytes);
+    fast_->snapped.resize(std::min(most, scene.triangles.size()));
+    for (std::size_t first = 0; first < scene.triangles.size(); first += most) {
+      const auto part = std::span(scene.triangles).subspan(first, std::min(most, scene.triangles.size() - first));
+      const auto snapped = std::span(fast_->snapped).first(part.size());
+      if (bits < Fixed::kSubpixelBits && !all_on_grid(part, std::ldexp(1.0F, bits))) return std::nullopt;
+      if (!fast_->rasterizer.snap_on_grid(in_place(part), snapped)) return std::nullopt;
+      const bool equal = with_view(scene.setting, *target, [&](const auto& view) {
+        return draws_just(*fast_, snapped, view, observed.data(first, part.size()));
+      });
+      if (!equal) return false;
+    }
+    return true;
   }
 
   tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override {
@@ -193,6 +235,20 @@ class EdgecaseSubject : public Subject {
   }
 
  private:
+  std::optional<std::string> refusal_but_for_snap(const Scene& scene) const {
+    const Setting& setting = scene.setting;
+    if (!rasterizer::Target::make(setting.target.width, setting.target.height)) {
+      return fmt::format("target {}x{} is not from 1 to {} pixels a side", setting.target.width, setting.target.height,
+                         info_.max_target);
+    }
+    if (setting.samples() < 1 || setting.samples() > rasterizer::kMaxSamples) {
+      return fmt::format("{} samples a pixel", setting.samples());
+    }
+    if (scene.clip) return "clip space";
+    if (!sample_pattern(setting)) return "a sample off the sixteenths of a pixel";
+    return std::nullopt;
+  }
+
   SubjectInfo info_;
   std::optional<Fast> fast_;
 };

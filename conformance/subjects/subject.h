@@ -67,6 +67,10 @@ class Subject {
     return scratch;
   }
 
+  /// Whether draw() would give just the masks `observed`, padding included; nothing if the subject cannot tell without
+  /// drawing them. May be asked of any scene, and answers for any way of snapping.
+  virtual std::optional<bool> draws(const Scene&, const MaskBatchView& /*observed*/) { return std::nullopt; }
+
   /// Seconds that all draws so far took inside the driver itself, from submission to the last finished sample: what
   /// would be spent without this suite around it. 0 for a subject that does not measure it.
   virtual double driver_seconds() const { return 0; }

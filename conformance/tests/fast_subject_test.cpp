@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "conformance/generators/generator.h"
 #include "conformance/oracle/oracle.h"
+#include "conformance/scene/grid.h"
 #include "conformance/subjects/edgecase_subject.h"
 #include "rasterizer/fast/fast.h"
 
@@ -44,12 +47,30 @@ class FastSubject : public testing::TestWithParam<std::string> {
   void expect_exact(const Scene& scene, std::size_t oracle_share) {
     ASSERT_EQ(fast_->refusal(scene), std::nullopt);
     ASSERT_TRUE(fast_->draw(scene, observed_) && scalar_->draw(scene, expected_));
+    ASSERT_NO_FATAL_FAILURE(expect_recognized(scene));
     std::vector<std::uint64_t> mask(MaskLayout(scene.setting).words());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
       ASSERT_TRUE(std::ranges::equal(observed_[i], expected_[i])) << "triangle " << i;
       if (i % oracle_share != 0) continue;
       oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], mask);
       ASSERT_TRUE(std::ranges::equal(observed_[i], mask)) << "the oracle, triangle " << i;
+    }
+  }
+
+  /// draws() tells expected_ from masks with one bit changed, whatever the way of snapping, where it says that it can.
+  void expect_recognized(Scene scene) {
+    const auto on_grid = [&](int bits) { return all_on_grid(scene.triangles, std::ldexp(1.0F, bits)); };
+    const int bits = scene.rules.subpixel_bits;
+    const bool answers = bits <= 8 && scene.setting.cull == CullMode::none && on_grid(bits) && on_grid(8);
+    const auto answer = [&](bool right) { return answers ? std::optional(right) : std::nullopt; };
+    for (const SnapRounding rounding : {SnapRounding::nearest_even, SnapRounding::truncate}) {
+      scene.rules.rounding = rounding;
+      ASSERT_EQ(fast_->draws(scene, expected_), answer(true));
+    }
+    for (const std::size_t word : {std::size_t{0}, expected_.data().size() / 2, expected_.data().size() - 1}) {
+      expected_.data()[word] ^= 1;
+      ASSERT_EQ(fast_->draws(scene, expected_), answer(false)) << "word " << word;
+      expected_.data()[word] ^= 1;
     }
   }
 

@@ -46,6 +46,24 @@ TEST(JudgedMeshes, AreAllOfABatchThatDiffers) {
   EXPECT_EQ(outcome.meshes.meshes, 20U);
 }
 
+// Where nothing differs the oracles look at the subject's masks instead of ours: as many, of any way of snapping.
+TEST(Reference, GivesTheOraclesTheirShareOfWhatAgrees) {
+  Scene scene = meshes_of("grid", 40).scene;
+  ASSERT_GT(scene.triangles.size(), 2 * kOracleShare);
+  for (const bool half_pixel_first : {false, true}) {
+    scene.rules.half_pixel_first = half_pixel_first;
+    Reference reference(make_subject("edgecase").value());
+    MaskBatch masks;
+    ASSERT_TRUE(reference.expect(scene, 1, masks));
+    const std::uint64_t share = reference.confirmed();
+    EXPECT_EQ(share, (scene.triangles.size() + 1 + kOracleShare - 1) / kOracleShare - 1);
+    ASSERT_EQ(reference.expects(scene, 1, masks), true);
+    EXPECT_EQ(reference.confirmed(), 2 * share);
+    masks[scene.triangles.size() - 1][3] ^= 4;
+    ASSERT_EQ(reference.expects(scene, 1, masks), false);
+  }
+}
+
 // Every mask is as expected, and what is expected is wrong.
 TEST(JudgedMeshes, ShowAFaultOfTheReference) {
   const Batch batch = meshes_of("fan", 3);

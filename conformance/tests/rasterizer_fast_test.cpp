@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 
 #include "conformance/tests/snapped_triangles.h"
 #include "rasterizer/rasterizer.h"
+#include "rasterizer/snap.h"
 
 namespace edgecase::rasterizer {
 namespace {
@@ -42,6 +45,7 @@ class FastRasterizerTest : public testing::TestWithParam<Isa> {
   void expect_exact(std::span<const Fixed> triangles, const Target& target) const {
     Words each(triangles.size() * target.mask_words(), ~std::uint64_t{0});
     fast_.cover_each(triangles, target, each);
+    ASSERT_EQ(fast_.first_difference(triangles, target, each), triangles.size());
     // As many as leave a vector of the widest kind half filled, and few enough to leave the mask partly empty.
     constexpr std::size_t kUnited = 3 * kMaxLanes / 2;
     Words united(target.mask_words());
@@ -178,6 +182,74 @@ TEST_P(FastRasterizerTest, EndsOfTheRangeOnLargeTargets) {
     ASSERT_NO_FATAL_FAILURE(expect_exact(triangles, target)) << width << "x" << height;
   }
 }
+
+TEST_P(FastRasterizerTest, FindsEveryBitThatDiffers) {
+  for (const auto& [width, height] : {std::array{1, 1}, {31, 9}, {32, 32}, {33, 5}, {64, 8}, {65, 17}, {200, 3}}) {
+    const Target target = *Target::make(width, height);
+    Triangles stream(3, target);
+    std::vector<Fixed> triangles(2 * kMaxLanes + 3);
+    for (Fixed& triangle : triangles) triangle = stream.next();
+    Words each(triangles.size() * target.mask_words());
+    fast_.cover_each(triangles, target, each);
+    // Bits right of the target, too: cover_each() leaves them clear.
+    for (std::size_t word = 0; word < each.size(); ++word) {
+      for (const int bit : {0, 17, 31, 32, 63}) {
+        each[word] ^= std::uint64_t{1} << bit;
+        ASSERT_EQ(fast_.first_difference(triangles, target, each), word / target.mask_words())
+            << width << "x" << height << ", word " << word << ", bit " << bit;
+        each[word] ^= std::uint64_t{1} << bit;
+      }
+    }
+    ASSERT_EQ(fast_.first_difference({}, target, {}), 0U);
+  }
+}
+
+class SnapOnGridTest : public FastRasterizerTest {
+ protected:
+  void SetUp() override {
+    for (Triangle& triangle : on_grid_) {
+      for (Vertex& v : triangle) v = {coordinate(), coordinate()};
+    }
+  }
+  float coordinate() {
+    const auto reach = static_cast<int>(FastRasterizer::kGridReach) * 256;
+    return static_cast<float>(static_cast<int>(random_() % static_cast<unsigned>(2 * reach - 1)) - reach + 1) / 256;
+  }
+
+  std::mt19937_64 random_{11};
+  std::vector<Triangle> on_grid_ = std::vector<Triangle>(2 * kMaxLanes + 5);
+};
+
+TEST_P(SnapOnGridTest, TakesListsOfEveryLength) {
+  for (std::size_t count = 0; count <= on_grid_.size(); ++count) {
+    const auto list = std::span(on_grid_).first(count);
+    std::vector<Fixed> expected(count), observed(count + 1);
+    ASSERT_FALSE(snap_list<Format16_8>(list, std::span(expected)));
+    ASSERT_TRUE(fast_.snap_on_grid(list, std::span(observed).first(count)));
+    expected.emplace_back();  // which is no more than the list
+    for (std::size_t i = 0; i <= count; ++i) EXPECT_EQ(text(observed[i]), text(expected[i])) << count;
+  }
+}
+
+TEST_P(SnapOnGridTest, RefusesWhatLiesOffTheGridOrTooFarOut) {
+  using Limits = std::numeric_limits<float>;
+  constexpr float kReach = FastRasterizer::kGridReach;
+  std::vector<Fixed> snapped(on_grid_.size());
+  ASSERT_TRUE(fast_.snap_on_grid(on_grid_, snapped));
+  for (const float bad : {1.0F / 512, 3 + 1.0F / 512, std::nextafter(5.0F, 6.0F), Limits::denorm_min(), kReach, -kReach,
+                          0x1p23F, -0x1p23F, 0x1p31F, Limits::max(), Limits::infinity(), Limits::quiet_NaN()}) {
+    for (std::size_t i = 0; i < 6 * on_grid_.size(); ++i) {
+      Vertex& v = on_grid_[i / 6][i / 2 % 3];
+      float& at = i % 2 == 0 ? v.x : v.y;
+      const float good = std::exchange(at, bad);
+      ASSERT_FALSE(fast_.snap_on_grid(on_grid_, snapped)) << bad << " at " << i;
+      at = good;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, SnapOnGridTest, testing::ValuesIn(available_isas().begin(), available_isas().end()),
+                         [](const auto& isa) { return std::string(name_of(isa.param)); });
 
 INSTANTIATE_TEST_SUITE_P(Isas, FastRasterizerTest, testing::ValuesIn(available_isas().begin(), available_isas().end()),
                          [](const auto& isa) { return std::string(name_of(isa.param)); });

@@ -78,7 +78,7 @@ Strips of_region(Strips strips, const Region& region) {
 }
 
 /// Masks of `planes` planes on `layout`: a vector's lanes of triangles at once, as long as their masks stay in the
-/// second-level cache.
+/// second-level cache. All clear.
 Scratch make_scratch(const StripLayout& layout, int height, int planes, std::vector<std::uint32_t>& words) {
   constexpr std::size_t kMostWords = 1 << 16;
   const std::size_t apart = layout.words() * static_cast<std::size_t>(planes);
@@ -105,6 +105,12 @@ void StripMask::to_rows(std::span<std::uint64_t> rows) const {
   std::ranges::fill(rows, std::uint64_t{0});
   const Region whole{0, 0, 0, width, strips.height, samples_, {}};
   kernels.region_to_rows(strips, plane_words(), whole, target_.row_words(samples_), rows.data());
+}
+
+bool FastRasterizer::snap_on_grid(std::span<const Triangle> triangles,
+                                  std::span<FixedTriangle<Format16_8>> snapped) const {
+  assert(triangles.size() == snapped.size());
+  return kernels_->snap_on_grid(triangles, snapped.data());
 }
 
 void FastRasterizer::cover_union(Triangles triangles, StripMask& mask) const {
@@ -134,6 +140,14 @@ void FastRasterizer::cover_each_in(Triangles triangles, const Region& region, co
   const Scratch scratch = make_scratch(layout, region.height, region.samples, words);
   kernels_->cover_each_in(triangles, region, scratch, target.row_words(region.samples),
                           target.mask_words(region.samples), masks.data());
+}
+
+std::size_t FastRasterizer::first_difference(Triangles triangles, const Target& target,
+                                             std::span<const std::uint64_t> masks) const {
+  assert(masks.size() == triangles.size() * target.mask_words());
+  std::vector<std::uint32_t> words;
+  const Scratch scratch = make_scratch(StripLayout(target), target.height().value(), 1, words);
+  return kernels_->first_difference(triangles, target.width().value(), scratch, masks.data());
 }
 
 void FastRasterizer::count_each(Triangles triangles, const Target& target, std::span<std::uint64_t> counts) const {

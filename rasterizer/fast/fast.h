@@ -14,6 +14,7 @@
 // below. The code for one sample in the centre of the whole target knows of nothing else.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,6 +26,7 @@
 #include "rasterizer/fast/tile_mask.h"
 #include "rasterizer/fast/visibility_buffer.h"
 #include "rasterizer/format.h"
+#include "rasterizer/input_error.h"
 #include "rasterizer/sample_pattern.h"
 
 namespace edgecase::rasterizer {
@@ -51,6 +53,12 @@ class FastRasterizer {
 
   Isa isa() const { return isa_; }
 
+  /// Snaps triangles of which every vertex lies on the grid of 16.8 within kGridReach, as most do that were made for a
+  /// test or snapped before: every way of rounding leaves it where it is. False if one does not, and then `snapped`,
+  /// which is as long, is unspecified; snap_list() takes them all.
+  bool snap_on_grid(std::span<const Triangle> triangles, std::span<FixedTriangle<Format16_8>> snapped) const;
+  static constexpr float kGridReach = 1 << 14;
+
   /// Adds the coverage of every triangle to `mask`: their union. The mask has the view's target and number of samples.
   void cover_union(Triangles triangles, StripMask& mask) const;
   template <class Samples, class Clip>
@@ -61,6 +69,10 @@ class FastRasterizer {
   void cover_each(Triangles triangles, const Target& target, std::span<std::uint64_t> masks) const;
   template <class Samples, class Clip>
   void cover_each(Triangles triangles, const View<Samples, Clip>& view, std::span<std::uint64_t> masks) const;
+
+  /// The index of the first triangle of which `masks` does not hold what cover_each() would write, or
+  /// triangles.size(). No mask is written for it: what is drawn is compared where it is drawn.
+  std::size_t first_difference(Triangles triangles, const Target& target, std::span<const std::uint64_t> masks) const;
 
   /// Writes how many samples every triangle covers: as many numbers as there are triangles. No mask is drawn for it.
   void count_each(Triangles triangles, const Target& target, std::span<std::uint64_t> counts) const;

@@ -26,11 +26,12 @@ struct FirstTriangles {
   std::uint32_t first_number;  ///< of the first triangle in the list
 };
 
-/// Each comes twice: for one sample in the centre on the whole of a target, and for the planes of a region. `apart`:
-/// words from one sample's plane to the next.
+/// Each comes twice: for one sample in the centre on the whole of a target, and for the planes of a region, but for
+/// first_difference. `apart`: words from one sample's plane to the next.
 struct FastRasterizer::Kernels {
   using Triangles = std::span<const FixedTriangle<Format16_8>>;
 
+  bool (*snap_on_grid)(std::span<const Triangle>, FixedTriangle<Format16_8>* snapped);
   void (*cover_union)(Triangles, int width, const Strips&);
   /// `kept` has room for two strips of the region for each of its samples.
   void (*cover_union_in)(Triangles, const Region&, const Strips&, std::size_t apart, std::uint32_t* kept);
@@ -38,6 +39,8 @@ struct FastRasterizer::Kernels {
   /// The scratch is the region's.
   void (*cover_each_in)(Triangles, const Region&, const Scratch&, std::size_t row_words, std::size_t mask_words,
                         std::uint64_t* masks);
+  /// The scratch is clear.
+  std::size_t (*first_difference)(Triangles, int width, const Scratch&, const std::uint64_t* masks);
   void (*count_each)(Triangles, int width, int height, std::uint64_t* counts);
   /// The region begins with its first pixel.
   void (*count_each_in)(Triangles, const Region&, std::uint64_t* counts);
