@@ -150,7 +150,8 @@ tl::expected<std::vector<BenchRow>, Error> bench(const BenchOptions& options) {
   if (!chosen) return tl::unexpected(chosen.error());
   const auto contenders = chosen_contenders(options);
   if (!contenders) return tl::unexpected(contenders.error());
-  const Effort& effort = options.quick ? kQuick : kThorough;
+  Effort effort = options.quick ? kQuick : kThorough;
+  if (options.instructions) effort.steps = kManySteps;
   const Progress progress(chosen->size(), "workloads");
   std::vector<BenchRow> rows;
   for (std::size_t i = 0; i < chosen->size(); ++i) {

@@ -22,6 +22,8 @@ struct BenchOptions {
   std::vector<std::string> subjects;
   /// Fewer triangles and repetitions: all built-in contenders and workloads in less than a minute.
   bool quick = false;
+  /// Counts instructions one by one where the machine has no counter for them: seconds for each row.
+  bool instructions = false;
   /// Where to write the rows as JSON, and the plot as PNG; empty for not at all. "-" is standard output.
   std::string json;
   std::string plot;

@@ -41,4 +41,9 @@ std::optional<std::uint64_t> count_instructions(const std::function<void()>& wor
   return count;
 }
 
+bool has_instruction_counter() {
+  static const bool has = count_instructions([] {}).has_value();
+  return has;
+}
+
 }  // namespace edgecase::conformance

@@ -130,8 +130,44 @@ tl::expected<std::optional<double>, Error> real_error(const Workload& workload, 
   return wrong_per_million(*counted);
 }
 
+/// Whatever sets up neighbours together, 16 at most, finds them together.
+constexpr std::size_t kNeighbours = 16;
+
+/// `count` of the scene's triangles: the first, or as many groups of neighbours spread over all of it.
+Scene part_of(const Scene& scene, std::size_t count) {
+  Scene part = scene;
+  part.triangles.resize(count);
+  const std::size_t groups = count / kNeighbours, all = scene.triangles.size() / kNeighbours;
+  for (std::size_t i = 0; i < groups * kNeighbours; ++i) {
+    part.triangles[i] = scene.triangles[i / kNeighbours * all / groups * kNeighbours + i % kNeighbours];
+  }
+  return part;
+}
+
+/// Instructions of a triangle, one by one, of as many triangles as `most` suffices for. Which ones depends on nothing
+/// but the instructions: equal programs have equal counts.
+tl::expected<std::optional<double>, Error> step_through_draw(Contender& contender, const Scene& scene,
+                                                             std::uint64_t most) {
+  std::optional<double> each;
+  for (std::size_t count = 1, next = 0;; count = next) {
+    const Scene part = part_of(scene, count);
+    if (auto drawn = warm_up(contender, part); !drawn) return tl::unexpected(drawn.error());
+    if (contender.clock() != Clock::thread) return std::nullopt;
+    contender.clear();
+    tl::expected<void, Error> drawn;
+    const auto steps = step_through([&] { drawn = contender.draw(); }, most);
+    if (!drawn) return tl::unexpected(drawn.error());
+    if (!steps) return each;
+    each = std::max(static_cast<double>(*steps), 1.0) / static_cast<double>(count);
+    // The more triangles, the less weighs what they share: more may fit than fewer made it seem.
+    next = std::min(static_cast<std::size_t>(static_cast<double>(most) * 0.9 / *each), scene.triangles.size());
+    if (next >= kNeighbours) next -= next % kNeighbours;
+    if (next < 2 * count) return each;
+  }
+}
+
 /// Of one draw of a contender that has drawn before.
-tl::expected<std::optional<double>, Error> instructions_of(Contender& contender, std::size_t triangles) {
+tl::expected<std::optional<double>, Error> count_draw(Contender& contender, std::size_t triangles) {
   if (contender.clock() != Clock::thread) return std::nullopt;
   contender.clear();
   tl::expected<void, Error> drawn;
@@ -158,10 +194,13 @@ tl::expected<std::vector<BenchRow>, Error> measure(const Workload& workload,
     if (const std::size_t most = contender->most_triangles(scene); most < scene.triangles.size()) {
       scene = make_workload(workload, most, seed);
     }
+    tl::expected<std::optional<double>, Error> instructions;
+    const bool counter = has_instruction_counter();
+    if (!counter && effort.steps != 0) instructions = step_through_draw(*contender, scene, effort.steps);
     if (auto drawn = warm_up(*contender, scene); !drawn) return tl::unexpected(drawn.error());
     const auto counted = count_errors(*contender, scene);
     if (!counted) return tl::unexpected(counted.error());
-    const auto instructions = instructions_of(*contender, scene.triangles.size());
+    if (counter) instructions = count_draw(*contender, scene.triangles.size());
     if (!instructions) return tl::unexpected(instructions.error());
     BenchRow& row = rows.emplace_back();
     row.rasterizer = contender->name();

@@ -9,6 +9,10 @@
 // the error against the rules, of which snapping to 8 subpixel bits is a part: the vertices are on that grid. The error
 // against the real geometry is another one: the vertices lie between the points of the grid, and what the unsnapped
 // triangle covers is expected. Who snaps as the rules say has some.
+//
+// Instructions. Of a whole draw, where the machine counts them. Where it does not, they can be counted one by one, see
+// instructions.h, of a draw of as many triangles as Effort::steps suffice for, in whole groups spread over the
+// workload.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +45,7 @@ struct BenchRow {
   Extent target{};  ///< that it drew on
   /// Against the real geometry; nothing for workloads that have none, see make_off_grid.
   std::optional<double> wrong_per_million_real{};
-  /// Of one draw, outside the kernel; nothing if the machine does not count them, or not in this thread.
+  /// Of one draw, outside the kernel; nothing if they were not counted, are not run by this thread, or are too many.
   std::optional<double> instructions_per_triangle{};
 };
 
@@ -49,7 +53,10 @@ struct Effort {
   Repetitions repetitions;
   /// Divides the number of the workload's triangles.
   std::size_t divisor;
+  /// The most instructions of a row to count one by one, if the machine has no counter; 0 for not at all.
+  std::uint64_t steps = 0;
 };
+inline constexpr std::uint64_t kManySteps = 200'000;
 inline constexpr Effort kQuick{{3, 0.01}, 100};
 /// A quarter: the slowest arithmetics take half a second for one draw of a whole workload.
 inline constexpr Effort kThorough{{9, 0.05}, 4};

@@ -129,6 +129,8 @@ void add_bench(CLI::App& app, BenchOptions& options) {
       ->type_name("S")
       ->allow_extra_args(false);
   bench->add_flag("--quick", options.quick, "Fewer triangles and repetitions: less than a minute in all");
+  bench->add_flag("--instructions", options.instructions,
+                  "Count instructions one by one if the machine has no counter: some seconds a row");
   bench->add_option("--seed", options.seed, "Seed of the workloads")->type_name("N")->capture_default_str();
   bench->add_option("--json", options.json, "Write the rows as JSON; - for standard output")->type_name("FILE");
   bench->add_option("--plot", options.plot, "Draw error over time as PNG")->type_name("FILE");

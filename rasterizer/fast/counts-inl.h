@@ -13,10 +13,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace edgecase::rasterizer::HWY_NAMESPACE {
 
-/// Of the lanes in `small`, each inside the target; 0 for the others.
-HWY_INLINE I32 count_small(const LaneSetup& s, M32 small) {
+/// Of the lanes in `chosen`, each inside the target and of at most kMediumExtent px; 0 for the others.
+HWY_INLINE I32 count_in_lanes(const LaneSetup& s, M32 chosen) {
   const auto d = DI32();
-  const I32 rows = filled_rows(s, small);
+  const I32 rows = filled_rows(s, chosen);
   I32 sum = hn::Zero(d);
   walk_rows(s, rows, hn::GetLane(hn::MaxOfLanes(d, rows)), [&](int, I32 count0, I32 count1, M32 live) HWY_ATTR {
     sum = hn::Add(sum, hn::IfThenElseZero(live, hn::Abs(hn::Sub(count0, count1))));
@@ -68,13 +68,26 @@ inline std::uint64_t count_large(const FixedTriangle<ShiftedFormat>& triangle, i
   return static_cast<std::uint64_t>(sum);
 }
 
+/// Adds to the lanes in `ways.small` those of up to 64 x 64 px inside the target. All lanes walk as many rows as the
+/// highest triangle has, which is worth it for more than one.
+HWY_INLINE void add_medium(const LaneSetup& s, int width, int height, Ways& ways) {
+  const I32 fits =
+      hn::Or(room_in(hn::Sub(s.right, s.left), kMediumExtent), room_in(hn::Sub(s.bottom, s.top), kMediumExtent));
+  const M32 chosen = not_negative(hn::Or(inside(s, width, height), fits));
+  const std::uint64_t medium = ways.others & bits_of(chosen);
+  if (kLanes > 1 && (medium & (medium - 1)) == 0) return;
+  ways.small = chosen;
+  ways.others &= ~medium;
+}
+
 /// Adds those of kLanes triangles at one plane's samples to `counts`.
 template <class Planes>
 HWY_INLINE void count_plane(const SnappedTriangle* triangles, const LaneSetup& setup, const Planes& planes, int plane,
                             int width, int height, std::uint64_t* counts) {
-  const Ways ways = ways_of(setup, width, height);
+  Ways ways = ways_of(setup, width, height);
+  if (ways.others != 0) add_medium(setup, width, height, ways);
   HWY_ALIGN std::int32_t small[kMaxLanes];
-  hn::Store(count_small(setup, ways.small), DI32(), small);
+  hn::Store(count_in_lanes(setup, ways.small), DI32(), small);
   for (std::size_t lane = 0; lane < kLanes; ++lane) counts[lane] += static_cast<std::uint64_t>(small[lane]);
   if (ways.others == 0) return;
   StoredSetup stored;

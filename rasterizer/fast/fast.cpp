@@ -162,9 +162,7 @@ void FastRasterizer::count_each_in(Triangles triangles, const Region& region, st
 void FastRasterizer::cover_first(Triangles triangles, VisibilityBuffer& buffer, std::uint32_t first_number) const {
   assert(buffer.samples() == 1);
   const Strips covered = buffer.covered_.strips();
-  const Scratch scratch{{buffer.scratch_.data(), covered.stride, covered.count, covered.height},
-                        kMaxLanes,
-                        buffer.covered_.plane_words()};
+  const Strips scratch{buffer.scratch_.data(), covered.stride, covered.count, covered.height};
   kernels_->cover_first(triangles, buffer.target().width().value(), scratch, covered,
                         {buffer.numbers_.data(), buffer.plane_pixels_, buffer.row_pixels_, first_number});
 }
@@ -174,10 +172,8 @@ void FastRasterizer::cover_first_in(Triangles triangles, const Region& region, V
   const Strips covered = of_region(buffer.covered_.strips(), region);
   Strips own = covered;
   own.words = buffer.scratch_.data();
-  const std::size_t apart = buffer.covered_.plane_words() * static_cast<std::size_t>(region.samples);
   const FirstTriangles first{buffer.numbers_.data(), buffer.plane_pixels_, buffer.row_pixels_, first_number};
-  kernels_->cover_first_in(triangles, region, {own, kMaxLanes, apart}, covered, buffer.covered_.plane_words(),
-                           of_region(first, region));
+  kernels_->cover_first_in(triangles, region, own, covered, buffer.covered_.plane_words(), of_region(first, region));
 }
 
 void FastRasterizer::cover_tile(Triangles triangles, TileMask& mask) const {

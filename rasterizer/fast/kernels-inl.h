@@ -63,13 +63,12 @@ inline void cover_union_in(std::span<const SnappedTriangle> triangles, const Reg
   outside.restore();
 }
 
-/// Calls write(strips, i) for each triangle i, drawn by draw(list, strips) into strips of its own, clear before.
+/// Calls write(strips, i) for each triangle i, drawn by draw(list, strips) into strips of its own.
 template <class Draw, class Write>
 HWY_INLINE void draw_each(std::span<const SnappedTriangle> triangles, const Scratch& scratch, const Draw& draw,
                           const Write& write) {
   for (std::size_t first = 0; first < triangles.size(); first += scratch.masks) {
     const auto list = triangles.subspan(first, std::min(scratch.masks, triangles.size() - first));
-    std::memset(scratch.strips.words, 0, list.size() * scratch.apart * sizeof(std::uint32_t));
     draw(list, scratch.strips);
     Strips own = scratch.strips;
     for (std::size_t i = 0; i < list.size(); ++i, own.words += scratch.apart) write(own, first + i);
@@ -83,22 +82,27 @@ inline void cover_each(std::span<const SnappedTriangle> triangles, int width, co
       static_cast<std::size_t>(scratch.strips.count + 1) / 2 * static_cast<std::size_t>(scratch.strips.height);
   draw_each(
       triangles, scratch,
-      [&](std::span<const SnappedTriangle> list, const Strips& strips)
-          HWY_ATTR { draw_list(list, CentrePlane(), width, scratch.apart, strips); },
+      [&](std::span<const SnappedTriangle> list, const Strips& strips) HWY_ATTR {
+        std::memset(strips.words, 0, list.size() * scratch.apart * sizeof(std::uint32_t));
+        draw_list(list, CentrePlane(), width, scratch.apart, strips);
+      },
       [&](const Strips& strips, std::size_t i) { strips_to_rows(strips, last_word, masks + i * mask_words); });
 }
 
 inline void cover_each_in(std::span<const SnappedTriangle> triangles, const Region& region, const Scratch& scratch,
                           std::size_t row_words, std::size_t mask_words, std::uint64_t* masks) {
   const std::size_t plane_words = scratch.apart / static_cast<std::size_t>(region.samples);
-  std::fill_n(masks, triangles.size() * mask_words, std::uint64_t{0});
+  const PlaneShift least = region.least_shift(), most = region.most_shift();
   draw_each(
       triangles, scratch,
       [&](std::span<const SnappedTriangle> list, const Strips& strips) HWY_ATTR {
         draw_list(list, RegionPlanes{region, plane_words}, region.right, scratch.apart, strips);
       },
       [&](const Strips& strips, std::size_t i) {
-        region_to_rows(strips, plane_words, region, row_words, masks + i * mask_words);
+        std::uint64_t* mask = masks + i * mask_words;
+        std::fill_n(mask, mask_words, std::uint64_t{0});
+        take_to_rows(strips, plane_words, region, StripBox(triangles[i], least, most, region.right, region.height),
+                     row_words, mask);
       });
 }
 

@@ -44,9 +44,9 @@ struct FastRasterizer::Kernels {
   void (*count_each)(Triangles, int width, int height, std::uint64_t* counts);
   /// The region begins with its first pixel.
   void (*count_each_in)(Triangles, const Region&, std::uint64_t* counts);
-  /// The scratch is clear, and is left so.
-  void (*cover_first)(Triangles, int width, const Scratch&, const Strips& covered, const FirstTriangles&);
-  void (*cover_first_in)(Triangles, const Region&, const Scratch&, const Strips& covered, std::size_t apart,
+  /// The scratch, strips like those of what is covered, is clear, and is left so.
+  void (*cover_first)(Triangles, int width, const Strips& scratch, const Strips& covered, const FirstTriangles&);
+  void (*cover_first_in)(Triangles, const Region&, const Strips& scratch, const Strips& covered, std::size_t apart,
                          const FirstTriangles&);
   void (*strips_to_rows)(const Strips&, std::uint64_t last_word, std::uint64_t* rows);
   void (*region_to_rows)(const Strips&, std::size_t apart, const Region&, std::size_t row_words, std::uint64_t* rows);

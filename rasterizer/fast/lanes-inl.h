@@ -45,20 +45,6 @@ HWY_INLINE std::uint64_t bits_of(M32 mask) {
   return bits;
 }
 
-/// A word of a strip: its bits from `count` on, none for a count of 32 and above. Any other count, negative ones
-/// included, gives anything.
-HWY_INLINE U32 bits_from(I32 count) {
-  const U32 ones = hn::Set(DU32(), ~std::uint32_t{0});
-  const U32 bits = hn::BitCast(DU32(), count);
-#if HWY_TARGET <= HWY_AVX2
-  // These shift by any number.
-  return hn::Shl(ones, bits);
-#else
-  const auto below = hn::RebindMask(DU32(), hn::Lt(count, hn::Set(DI32(), kStripWidth)));
-  return hn::IfThenElseZero(below, hn::Shl(ones, hn::And(bits, hn::Set(DU32(), kStripWidth - 1))));
-#endif
-}
-
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

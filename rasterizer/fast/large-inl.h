@@ -69,8 +69,6 @@ struct Drift {
   }
 };
 
-HWY_INLINE U32 bits_from(U32 count) { return bits_from(hn::BitCast(DI32(), count)); }
-
 // Bands.
 //
 // Within a band the rows are in lanes of 32 bits, 21 of them fraction bits, counted from the left side of the band's
@@ -87,23 +85,24 @@ static_assert(1 / (2.0 * kMostBandHeight) > 0x1p-20 + 0x1p-29);
 inline constexpr int kLaneRows = static_cast<int>(kLanes);
 
 /// A number for each row of a band.
-template <int Rows>
+template <int Rows, class Numbers = U32>
 struct BandRows {
   static constexpr int kVectors = Rows / kLaneRows;
   static_assert(kVectors * kLaneRows == Rows && Rows <= kRowsBelow);
-  U32 vectors[kVectors];
+  Numbers vectors[kVectors];
 };
 
-/// max(counts - columns, 0) of counts below 2^16.
-HWY_INLINE U32 beyond(U32 counts, int columns) {
-#if HWY_TARGET == HWY_SCALAR
-  const U32 least = hn::Set(DU32(), static_cast<std::uint32_t>(columns));
-  return hn::Sub(hn::Max(counts, least), least);
-#else
-  const hn::Repartition<std::uint16_t, DU32> halves;
-  const U32 wide = hn::Set(DU32(), static_cast<std::uint32_t>(columns));
-  return hn::BitCast(DU32(), hn::SaturatedSub(hn::BitCast(halves, counts), hn::BitCast(halves, wide)));
-#endif
+/// The same as narrow counts.
+template <int Rows>
+HWY_INLINE decltype(auto) narrow(const BandRows<Rows>& counts) {
+  using Narrow = BandRows<Rows, NarrowCounts>;
+  if constexpr (std::is_same_v<Narrow, BandRows<Rows>>) {
+    return (counts);
+  } else {
+    Narrow narrowed;
+    for (int i = 0; i < Narrow::kVectors; ++i) narrowed.vectors[i] = narrow(counts.vectors[i]);
+    return narrowed;
+  }
 }
 
 /// An edge's crossings in bands of `Rows` rows.
@@ -149,40 +148,38 @@ class BandEdge {
 };
 
 /// Up to that many strips of a band are not asked whether they hold an edge.
-inline constexpr int kStripsToAdd = 8;
+inline constexpr int kStripsToAdd = kNarrowColumns / kStripWidth;
 
 inline int strip_of(std::int64_t t) { return static_cast<int>(t >> (kFractionBits + kStripBits)); }
 /// That of the last pixel before the count of t.
 inline int last_strip_before(std::int64_t t) { return strip_of(t - (std::int64_t{1} << kFractionBits)); }
 
-/// Adds what lies between both counts of a band's rows to the strip from which they are counted.
-template <int Rows>
-HWY_INLINE void add_between(const BandRows<Rows>& left, const BandRows<Rows>& right, std::uint32_t* to) {
-  for (int i = 0; i < BandRows<Rows>::kVectors; ++i) {
-    add(hn::Xor(bits_from(left.vectors[i]), bits_from(right.vectors[i])), to + i * kLaneRows);
-  }
-}
-
-/// The same for the strip that begins `columns` right of it.
+/// Adds what lies between both counts of a band's rows to the strip that begins `columns` right of where they are taken
+/// from.
 template <int Rows>
 HWY_INLINE void add_between(const BandRows<Rows>& left, const BandRows<Rows>& right, int columns, std::uint32_t* to) {
   for (int i = 0; i < BandRows<Rows>::kVectors; ++i) {
-    add(hn::Xor(bits_from(beyond(left.vectors[i], columns)), bits_from(beyond(right.vectors[i], columns))),
-        to + i * kLaneRows);
+    add(wide_bits_between(left.vectors[i], right.vectors[i], columns), to + i * kLaneRows);
   }
 }
 
-/// The same for `count` strips. Two are drawn without asking, in which thin and small triangles show in most bands, and
-/// the others two by two: one more than there are has nothing added to it.
+/// The same for the first `count` strips, at most kStripsToAdd. Two are drawn without asking, in which thin and small
+/// triangles show in most bands, and the others two by two: one more than there are has nothing added to it.
 template <int Rows>
-HWY_INLINE void add_strips(const BandRows<Rows>& left, const BandRows<Rows>& right, int count, std::size_t stride,
-                           std::uint32_t* to) {
-  add_between(left, right, to);
-  add_between(left, right, kStripWidth, to + stride);
+HWY_INLINE void add_strips(const BandRows<Rows, NarrowCounts>& left, const BandRows<Rows, NarrowCounts>& right,
+                           int count, std::size_t stride, std::uint32_t* to) {
+  constexpr int kVectors = BandRows<Rows>::kVectors;
+  const auto add_strip = [&](int columns, std::uint32_t* words) HWY_ATTR {
+    for (int i = 0; i < kVectors; ++i) {
+      add(bits_between(left.vectors[i], right.vectors[i], columns), words + i * kLaneRows);
+    }
+  };
+  for (int i = 0; i < kVectors; ++i) add(bits_between(left.vectors[i], right.vectors[i]), to + i * kLaneRows);
+  add_strip(kStripWidth, to + stride);
   for (int strip = 2; strip < count; strip += 2) {
     to += 2 * stride;
-    add_between(left, right, strip * kStripWidth, to);
-    add_between(left, right, (strip + 1) * kStripWidth, to + stride);
+    add_strip(strip * kStripWidth, to);
+    add_strip((strip + 1) * kStripWidth, to + stride);
   }
 }
 
@@ -200,8 +197,8 @@ HWY_INLINE void draw_bands(const Crossings& left_crossings, const Crossings& rig
     const int last = last_strip_before(right.rightmost());
     if (last < first) continue;
     const Counts left_counts = left.counts(first), right_counts = right.counts(first);
-    if (last - first < kStripsToAdd) {
-      add_strips(left_counts, right_counts, last - first + 1, strips.stride, word(first));
+    if (last < first + kStripsToAdd) {
+      add_strips<Rows>(narrow(left_counts), narrow(right_counts), last - first + 1, strips.stride, word(first));
       continue;
     }
     // Strips from `full` to `ending` hold no edge.
@@ -227,7 +224,12 @@ HWY_INLINE void draw_bands(const Crossings& left_crossings, const Crossings& rig
     left_counts.vectors[i] = keep(live, left_counts.vectors[i]);
     right_counts.vectors[i] = keep(live, right_counts.vectors[i]);
   }
-  add_strips(left_counts, right_counts, last - first + 1, strips.stride, word(first));
+  if (last < first + kStripsToAdd) {
+    return add_strips<Rows>(narrow(left_counts), narrow(right_counts), last - first + 1, strips.stride, word(first));
+  }
+  for (int strip = first; strip <= last; ++strip) {
+    add_between(left_counts, right_counts, (strip - first) * kStripWidth, word(strip));
+  }
 }
 
 /// The counts of the next kLanes rows; beyond the edge's end they are anything.
@@ -263,8 +265,13 @@ inline void draw_anywhere(Crossings left, Crossings right, int row, int end, con
     const int ending = clipped(right.t + right_drift.left);
     const int stop = clipped(right.t + right_drift.right + kAllButOne);
     std::uint32_t* to = strips.words + row + static_cast<std::size_t>(first) * strips.stride;
-    const auto draw_edges = [&](int strip)
-                                HWY_ATTR { add(bits_between(left_counts, right_counts, strip * kStripWidth), to); };
+    const auto draw_edges = [&](int strip) HWY_ATTR {
+      const I32 begin = hn::Set(d, strip * kStripWidth);
+      const auto bits = [&](I32 counts) HWY_ATTR {
+        return bits_from_wide(hn::BitCast(du, hn::Max(hn::Sub(counts, begin), hn::Zero(d))));
+      };
+      add(hn::Xor(bits(left_counts), bits(right_counts)), to);
+    };
     int strip = first;
     if (ending - full > 1 && rows == kBand) {
       for (; strip < full; ++strip, to += strips.stride) draw_edges(strip);

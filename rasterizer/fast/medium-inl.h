@@ -89,14 +89,6 @@ class RowCounts {
   I32 middle_;
 };
 
-/// The bits of the strip that begins `before` columns right of where counts are taken from, between both counts.
-HWY_INLINE U32 bits_between(I32 count0, I32 count1, int before) {
-  const auto d = DI32();
-  const I32 begin = hn::Set(d, before);
-  return hn::Xor(bits_from(hn::Max(hn::Sub(count0, begin), hn::Zero(d))),
-                 bits_from(hn::Max(hn::Sub(count1, begin), hn::Zero(d))));
-}
-
 /// Columns and rows of a block: what most triangles of a few dozen pixels fit into. Its strips are drawn without a
 /// question, and with the widest vectors its rows, too; those not needed have nothing added to them.
 inline constexpr int kBlockRows = 32;
@@ -115,8 +107,9 @@ HWY_INLINE void draw_block(const StoredSetup& s, std::size_t lane, const Strips&
     if (kLanes < kMaxLanes && first >= s.rows[lane]) break;
     I32 count0, count1;
     rows.at(first, end, count0, count1);
-    add(hn::Xor(bits_from(count0), bits_from(count1)), left + first);
-    add(bits_between(count0, count1, kStripWidth), right + first);
+    const NarrowCounts narrow0 = narrow(count0), narrow1 = narrow(count1);
+    add(bits_between(narrow0, narrow1), left + first);
+    add(bits_between(narrow0, narrow1, kStripWidth), right + first);
   }
 }
 
@@ -132,9 +125,10 @@ HWY_INLINE void draw_medium(const StoredSetup& s, std::size_t lane, const Strips
   for (int first = begin; first < end; first += static_cast<int>(kLanes)) {
     I32 count0, count1;
     rows.at(first, hn::Set(DI32(), end), count0, count1);
+    const NarrowCounts narrow0 = narrow(count0), narrow1 = narrow(count1);
     std::uint32_t* to = strips.words + top + first;
     for (int strip = strip_begin; strip < strip_end; ++strip) {
-      add(bits_between(count0, count1, (strip - first_strip) * kStripWidth),
+      add(bits_between(narrow0, narrow1, (strip - first_strip) * kStripWidth),
           to + static_cast<std::size_t>(strip) * strips.stride);
     }
   }

@@ -5,10 +5,12 @@
 // centres, and a scissor is a smaller target, to whose first row and strip the triangle is moved just as well.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "rasterizer/fast/strip_mask.h"
 #include "rasterizer/format.h"
@@ -48,6 +50,22 @@ struct Region {
   int height;
   int samples;
   std::array<PlaneShift, kMaxSamples> shifts;
+
+  /// The least and the most that a plane moves a triangle, in either direction.
+  constexpr PlaneShift least_shift() const {
+    PlaneShift least = shifts[0];
+    for (const PlaneShift& by : std::span(shifts).first(static_cast<std::size_t>(samples))) {
+      least = {std::min(least.x, by.x), std::min(least.y, by.y)};
+    }
+    return least;
+  }
+  constexpr PlaneShift most_shift() const {
+    PlaneShift most = shifts[0];
+    for (const PlaneShift& by : std::span(shifts).first(static_cast<std::size_t>(samples))) {
+      most = {std::max(most.x, by.x), std::max(most.y, by.y)};
+    }
+    return most;
+  }
 
   constexpr int strip_count() const { return (right + kStripWidth - 1) / kStripWidth; }
   /// The columns of one of its strips, as bits.

@@ -23,7 +23,7 @@
 //
 // exactly, whatever arithmetic has an error below 1/(2 dy). In binary32: k is an integer below 2^24 and thus exact, its
 // steps, 2 dx, too; the reciprocal of 2 dy and the product each have a relative error of at most 2^-24.
-#include "rasterizer/fast/lanes-inl.h"
+#include "rasterizer/fast/bits-inl.h"
 
 #if defined(EDGECASE_FAST_SMALL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGECASE_FAST_SMALL_INL_H_
@@ -239,12 +239,10 @@ HWY_INLINE void draw_small(const LaneSetup& s, M32 small, I32 base, const Strips
   const std::uint64_t straddling = bits_of(straddles);
   walk_rows(s, rows, row_count, [&](int i, I32 count0, I32 count1, M32 live) HWY_ATTR {
     const std::size_t at = static_cast<std::size_t>(i) * kLanes;
-    hn::Store(keep(live, hn::Xor(bits_from(count0), bits_from(count1))), DU32(), group.first_strip + at);
+    const NarrowCounts narrow0 = narrow(count0), narrow1 = narrow(count1);
+    hn::Store(keep(live, bits_between(narrow0, narrow1)), DU32(), group.first_strip + at);
     if (straddling != 0) {
-      const I32 width = hn::Set(di, kStripWidth);
-      const I32 right0 = hn::Max(hn::Sub(count0, width), zero);
-      const I32 right1 = hn::Max(hn::Sub(count1, width), zero);
-      hn::Store(keep(live, hn::Xor(bits_from(right0), bits_from(right1))), DU32(), group.second_strip + at);
+      hn::Store(keep(live, bits_between(narrow0, narrow1, kStripWidth)), DU32(), group.second_strip + at);
     }
   });
   // Rows up to the next even number are added.

@@ -123,6 +123,13 @@ constexpr std::int64_t largest_offset() {
 }
 static_assert(largest_offset() < std::int64_t{1} << 31);
 
+/// Lanes that draw_block() can draw, of those in `lanes`.
+HWY_INLINE std::uint64_t block_lanes(const LaneSetup& s, I32 is_inside, std::uint64_t lanes) {
+  const I32 in_block =
+      hn::Or(room_in(hn::Sub(s.bottom, s.top), kBlockRows), room_in(hn::Sub(s.right, s.strip_left), kBlockColumns));
+  return lanes & bits_of(not_negative(hn::Or(is_inside, in_block)));
+}
+
 /// Draws kLanes triangles, set up for plane `plane`, into that plane; the one in lane i into the strips that begin i *
 /// `apart` words further on.
 template <class Planes>
@@ -135,9 +142,7 @@ HWY_INLINE void draw_plane(const SnappedTriangle* triangles, const LaneSetup& se
   if (ways.others == 0) return;
   StoredSetup stored;
   if ((ways.others & ways.medium) != 0) store(setup, stored);
-  const I32 in_block = hn::Or(room_in(hn::Sub(setup.bottom, setup.top), kBlockRows),
-                              room_in(hn::Sub(setup.right, setup.strip_left), kBlockColumns));
-  const std::uint64_t block = ways.others & bits_of(not_negative(hn::Or(is_inside, in_block)));
+  const std::uint64_t block = block_lanes(setup, is_inside, ways.others);
   for (std::uint64_t lanes = block; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     Strips own = strips;

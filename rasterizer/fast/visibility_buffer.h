@@ -22,7 +22,7 @@ class VisibilityBuffer {
         row_pixels_(static_cast<std::size_t>(StripLayout(target).count) * kStripWidth),
         plane_pixels_(row_pixels_ * static_cast<std::size_t>(target.height().value())),
         numbers_(plane_pixels_ * static_cast<std::size_t>(samples), kNone),
-        scratch_(kMaxLanes * static_cast<std::size_t>(samples) * covered_.plane_words() + StripLayout(target).stride) {}
+        scratch_(StripLayout(target).allocated_words()) {}
 
   const Target& target() const { return covered_.target(); }
   int samples() const { return covered_.samples(); }
