@@ -81,11 +81,12 @@ HWY_INLINE LaneSetup moved_to_corner(const LaneSetup& s) {
   return moved;
 }
 
-/// Those of kLanes triangles that fit into a block, each in a block of its own.
+/// Those of kLanes triangles that fit into a block of fewer rows, each in a block of its own.
 struct Blocks {
-  static constexpr std::size_t kStride = kBlockRows;
+  static constexpr int kRows = kUnaskedRows;
+  static constexpr std::size_t kStride = kRows;
   static constexpr std::size_t kApart = 2 * kStride;
-  static_assert(kBlockColumns == 2 * kStripWidth && kSmallRows <= kBlockRows);
+  static_assert(kBlockColumns == 2 * kStripWidth && kSmallRows <= kRows);
   HWY_ALIGN std::uint32_t words[kMaxLanes * kApart] = {};
 };
 
@@ -99,12 +100,12 @@ HWY_INLINE void first_in_plane(const SnappedTriangle* triangles, const LaneSetup
   const I32 is_inside = inside(planes, setup, width, scratch.height);
   const Ways ways = ways_of(setup, is_inside, width, scratch.height);
   const std::uint64_t small = bits_of(hn::Gt(filled_rows(setup, ways.small), hn::Zero(d)));
-  const std::uint64_t block = block_lanes(setup, is_inside, ways.others);
+  const std::uint64_t block = block_lanes(setup, is_inside, ways.others, Blocks::kRows, scratch.height);
   const LaneSetup moved = moved_to_corner(setup);
-  const Strips corner{blocks.words, Blocks::kStride, 2, kBlockRows};
+  const Strips corner{blocks.words, Blocks::kStride, 2, Blocks::kRows};
   const I32 base = hn::Mul(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(Blocks::kApart)));
   draw_small(moved, ways.small, base, corner);
-  StoredSetup stored;
+  StoredBlocks stored;
   if (block != 0) store(moved, stored);
   for (std::uint64_t lanes = block; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));

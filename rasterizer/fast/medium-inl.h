@@ -30,6 +30,11 @@ HWY_INLINE void store(const LaneEdge& edge, StoredSetup::StoredEdge& to) {
   hn::Store(edge.scale, d, to.scale);
 }
 
+/// The lower edge continued upwards by `middle` rows: float_decides() regards an edge in all rows of its triangle.
+HWY_INLINE F32 k_of_top(const LaneEdge& lower, I32 middle) {
+  return hn::NegMulAdd(hn::ConvertTo(DF32(), middle), lower.step, lower.k);
+}
+
 HWY_INLINE void store(const LaneSetup& s, StoredSetup& to) {
   const auto d = DI32();
   const I32 middle = hn::Sub(s.middle, s.top);
@@ -40,9 +45,8 @@ HWY_INLINE void store(const LaneSetup& s, StoredSetup& to) {
   hn::Store(hn::Sub(s.bottom, s.top), d, to.rows);
   store(s.longer, to.longer);
   store(s.upper, to.upper);
-  // Continued upwards: float_decides() regards an edge in all rows of its triangle.
   LaneEdge lower = s.lower;
-  lower.k = hn::NegMulAdd(hn::ConvertTo(DF32(), middle), lower.step, lower.k);
+  lower.k = k_of_top(lower, middle);
   store(lower, to.lower);
 }
 
@@ -88,30 +92,6 @@ class RowCounts {
   RowEdge longer_, upper_, lower_;
   I32 middle_;
 };
-
-/// Columns and rows of a block: what most triangles of a few dozen pixels fit into. Its strips are drawn without a
-/// question, and with the widest vectors its rows, too; those not needed have nothing added to them.
-inline constexpr int kBlockRows = 32;
-inline constexpr int kBlockColumns = 2 * kStripWidth;
-static_assert(kBlockRows <= kRowsBelow);
-
-/// Draws lane `lane`, which lies inside the target, has at most kBlockRows rows and ends at most kBlockColumns right of
-/// its first strip's left side.
-HWY_INLINE void draw_block(const StoredSetup& s, std::size_t lane, const Strips& strips) {
-  const RowCounts rows(s, lane);
-  const I32 end = hn::Set(DI32(), s.rows[lane]);
-  std::uint32_t* left =
-      strips.words + s.top[lane] + (s.strip_left[lane] >> 5) * static_cast<std::ptrdiff_t>(strips.stride);
-  std::uint32_t* right = left + strips.stride;
-  for (int first = 0; first < kBlockRows; first += static_cast<int>(kLanes)) {
-    if (kLanes < kMaxLanes && first >= s.rows[lane]) break;
-    I32 count0, count1;
-    rows.at(first, end, count0, count1);
-    const NarrowCounts narrow0 = narrow(count0), narrow1 = narrow(count1);
-    add(bits_between(narrow0, narrow1), left + first);
-    add(bits_between(narrow0, narrow1, kStripWidth), right + first);
-  }
-}
 
 /// Draws lane `lane`, which has rows and columns in the target.
 HWY_INLINE void draw_medium(const StoredSetup& s, std::size_t lane, const Strips& strips) {

@@ -164,10 +164,19 @@ HWY_INLINE LaneSetup make_lane_setup(const LaneTriangle& t, const Shift& shift) 
   return s;
 }
 
-/// round(k * scale), for counts from 0 to 2^21: in a float of [2^23, 2^24) the last bit of the significand is 1.
+/// Added to a float, it rounds that to an integer: in a float of [2^23, 2^24) the last bit of the significand is 1.
+inline constexpr float kToInteger = 0x1.8p23f;
+inline constexpr std::int32_t kToIntegerBits = 0x4b400000;
+
+/// round(k * scale), for counts from 0 to 2^21.
 HWY_INLINE I32 round_count(F32 k, F32 scale) {
-  const F32 rounded = hn::MulAdd(k, scale, hn::Set(DF32(), 0x1.8p23f));
-  return hn::Sub(hn::BitCast(DI32(), rounded), hn::Set(DI32(), 0x4b400000));
+  const F32 rounded = hn::MulAdd(k, scale, hn::Set(DF32(), kToInteger));
+  return hn::Sub(hn::BitCast(DI32(), rounded), hn::Set(DI32(), kToIntegerBits));
+}
+
+/// The same of a count not rounded yet.
+HWY_INLINE I32 rounded(F32 count) {
+  return hn::Sub(hn::BitCast(DI32(), hn::Add(count, hn::Set(DF32(), kToInteger))), hn::Set(DI32(), kToIntegerBits));
 }
 
 /// Where the lanes of a group of small triangles are drawn to.

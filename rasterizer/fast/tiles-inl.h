@@ -42,7 +42,7 @@ HWY_INLINE I32 inside(const TilePlane&, const LaneSetup& s, int width, int heigh
       hn::Or(hn::Add(s.left, hn::Set(d, kMarginStrips * kStripWidth)), hn::Add(s.top, hn::Set(d, kMarginRows))),
       hn::Or(room_in(s.left, width - 1), room_in(s.top, height - 1)));
 }
-static_assert(kBlockRows <= kMarginRows && kSmallRows <= kMarginRows);
+static_assert(kUnaskedRows <= kMarginRows && kSmallRows <= kMarginRows);
 static_assert(kBlockColumns <= (1 + kMarginStrips) * kStripWidth && kSmallColumns <= kMarginStrips * kStripWidth);
 
 inline void cover_tile(std::span<const SnappedTriangle> triangles, const Tile& tile, const Strips& strips) {

@@ -1,4 +1,5 @@
 // Lists of triangles: each group of as many as a vector has lanes is set up at once and goes the way of its sizes.
+#include "rasterizer/fast/blocks-inl.h"
 #include "rasterizer/fast/large-inl.h"
 
 #if defined(EDGECASE_FAST_UNION_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -123,12 +124,18 @@ constexpr std::int64_t largest_offset() {
 }
 static_assert(largest_offset() < std::int64_t{1} << 31);
 
-/// Lanes that draw_block() can draw, of those in `lanes`.
-HWY_INLINE std::uint64_t block_lanes(const LaneSetup& s, I32 is_inside, std::uint64_t lanes) {
+/// Lanes that draw_block() can draw, of those in `lanes`, if they have no more than `most` rows. Its last vector of
+/// rows may reach beyond the triangle, but not beyond what belongs to a strip of `height` rows.
+HWY_INLINE std::uint64_t block_lanes(const LaneSetup& s, I32 is_inside, std::uint64_t lanes, int most, int height) {
   const I32 in_block =
-      hn::Or(room_in(hn::Sub(s.bottom, s.top), kBlockRows), room_in(hn::Sub(s.right, s.strip_left), kBlockColumns));
-  return lanes & bits_of(not_negative(hn::Or(is_inside, in_block)));
+      hn::Or(room_in(hn::Sub(s.bottom, s.top), most), room_in(hn::Sub(s.right, s.strip_left), kBlockColumns));
+  const I32 above_end = room_in(s.bottom, height + kRowsBelow - kMaxLanes);
+  return lanes & bits_of(not_negative(hn::Or(hn::Or(is_inside, above_end), in_block)));
 }
+
+/// Small triangles cost their group as much as its highest one, in all lanes: fewer than that many are drawn as blocks.
+inline constexpr int kWorthLanes = kLanes * 3 / 4;
+static_assert(kSmallRows <= kBlockRows && kSmallColumns + kStripWidth - 1 <= kBlockColumns);
 
 /// Draws kLanes triangles, set up for plane `plane`, into that plane; the one in lane i into the strips that begin i *
 /// `apart` words further on.
@@ -138,18 +145,26 @@ HWY_INLINE void draw_plane(const SnappedTriangle* triangles, const LaneSetup& se
   const auto d = DI32();
   const I32 is_inside = inside(planes, setup, width, strips.height);
   const Ways ways = ways_of(setup, is_inside, width, strips.height);
-  draw_small(setup, ways.small, hn::Mul(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(apart))), strips);
-  if (ways.others == 0) return;
-  StoredSetup stored;
-  if ((ways.others & ways.medium) != 0) store(setup, stored);
-  const std::uint64_t block = block_lanes(setup, is_inside, ways.others);
+  std::uint64_t block = bits_of(hn::Gt(filled_rows(setup, ways.small), hn::Zero(d)));
+  if (std::popcount(block) >= kWorthLanes) {
+    draw_small(setup, ways.small, hn::Mul(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(apart))), strips);
+    block = 0;
+  }
+  if ((block | ways.others) == 0) return;
+  block |= block_lanes(setup, is_inside, ways.others, kBlockRows, strips.height);
+  StoredBlocks blocks;
+  if (block != 0) store(setup, blocks);
   for (std::uint64_t lanes = block; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     Strips own = strips;
     own.words += lane * apart;
-    draw_block(stored, lane, own);
+    draw_block(blocks, lane, own);
   }
-  for (std::uint64_t lanes = ways.others & ~block; lanes != 0; lanes &= lanes - 1) {
+  const std::uint64_t others = ways.others & ~block;
+  if (others == 0) return;
+  StoredSetup stored;
+  if ((others & ways.medium) != 0) store(setup, stored);
+  for (std::uint64_t lanes = others; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     Strips own = strips;
     own.words += lane * apart;
