@@ -207,7 +207,7 @@ bool append_fan(const TransformModel& model, const Outline& outline, bool first_
       return false;
     }
     Triangle before_snap = part_of(outline.before_snap);
-    if (first_goes_last) std::ranges::rotate(before_snap, before_snap.begin() + 1);
+    if (first_goes_last) std::rotate(before_snap.begin(), before_snap.begin() + 1, before_snap.end());
     if (turn_of(part) != Turn::none) out.push_back({part, turn_before_snap(before_snap)});
   }
   return true;

@@ -14,7 +14,7 @@ void expect_filled(const Generator& generator, int bits = 8) {
   filled.rules.subpixel_bits = expected.rules.subpixel_bits = bits;
   std::uint64_t next = 0, begun = 0;
   // From any number on, lists of any length, behind others.
-  for (const std::size_t more : {1, 7, 64, 65, 200, 1}) {
+  for (const std::size_t more : {1u, 7u, 64u, 65u, 200u, 1u}) {
     const std::size_t wanted = filled.triangles.size() + more;
     next = stream.fill(next, wanted, filled, [&](std::uint64_t number, std::size_t first) {
       EXPECT_EQ(number, begun++) << generator.name;

@@ -38,7 +38,7 @@ TEST(TiledDraw, PartsMayBeDrawnInAnyOrder) {
   d.fast.cover_union(d.triangles, expected);
   TiledDraw draw(d.fast, d.triangles, d.plan, d.mask, d.memory);
   ASSERT_EQ(draw.chunks(), 3u);
-  for (const std::size_t chunk : {2, 0, 1}) draw.bin(chunk);
+  for (const std::size_t chunk : {2u, 0u, 1u}) draw.bin(chunk);
   TiledDraw::Canvas one(0), other(1);
   // Both canvases have parts of every tile.
   for (const int tile : {3, 1, 0, 2}) {
@@ -93,7 +93,7 @@ TEST(TiledDraw, ASingleTileIsDrawnInPlaceAndNobodyWaitsForWhoHasNotBegun) {
     TiledDraw draw(d.fast, d.triangles, plan, d.mask, d.memory);
     draw.draw({0, 0}, other);
     EXPECT_EQ(rows(d.mask), std::vector<std::uint64_t>(d.target.mask_words()));
-    for (const std::size_t part : {1, 4, 2}) draw.draw({0, part}, own);
+    for (const std::size_t part : {1u, 4u, 2u}) draw.draw({0, part}, own);
     EXPECT_NE(rows(d.mask), std::vector<std::uint64_t>(d.target.mask_words()));
     EXPECT_NE(rows(d.mask), rows(expected));
     draw.draw({0, 3}, other);

@@ -29,7 +29,7 @@ HWY_INLINE void number_columns(std::uint32_t bits, std::uint32_t number, std::ui
   const U32 numbers = hn::Set(d, number);
   // Bit i of lane i.
   const U32 own_bit = hn::Shl(hn::Set(d, 1), hn::Iota(d, 0));
-  const int end = std::bit_width(bits);
+  const auto end = static_cast<int>(std::bit_width(bits));
   for (int column = std::countr_zero(bits) & -kColumns; column < end; column += kColumns) {
     const auto set = hn::TestBit(hn::Set(d, bits >> column), own_bit);
 #if HWY_TARGET <= HWY_AVX3

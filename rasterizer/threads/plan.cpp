@@ -15,11 +15,12 @@ using Triangle = FixedTriangle<Format16_8>;
 // Costs in ns, as measured on a Zen 4 core with AVX-512. Only their ratios decide, and a factor of two in one of them
 // changes little: between the right plan and the next one the difference is small.
 constexpr double kSetup = 6, kRow = 0.6, kPixel = 0.001;  // of drawing a triangle
+constexpr double kRowOfMedium = 0.25;                     // where it has at most kUnclipped rows and columns
 constexpr double kBin = 2.6, kBinBound = 0.22;            // of binning one, and for each column and row of tiles
 constexpr double kCopy = 1.5;                             // of a triangle in a bin
 constexpr double kCutRows = 60;                           // of a cut between rows of a triangle, at most
 constexpr double kCutColumns = 2;  // of one between its columns, in the work on the whole: it is then drawn clipped,
-constexpr double kUnclipped = 64;  // unless it has no more rows and columns than this
+constexpr double kUnclipped = 64;  // unless it is medium: has no more rows and columns than this
 
 // Threads that have slept: how long the call that wakes them takes, and when they are there. oneTBB's sleep if there
 // was nothing to do for 0.1 to 0.2 ms. Before that, they begin within kStartThread.
@@ -40,6 +41,7 @@ struct Sample {
   double work;
   double columns() const { return right - left; }
   double rows() const { return bottom - top; }
+  bool medium() const { return std::max(rows(), columns()) <= kUnclipped; }
   double lines() const { return (rows() / TileGrid::kRowUnit + 1) * (columns() / kStripWidth + 1); }
 };
 
@@ -78,7 +80,7 @@ Samples sample(std::span<const Triangle> triangles, const Target& target, std::s
     const double doubled_area =
         static_cast<double>(bx - ax) * static_cast<double>(cy - ay) - static_cast<double>(cx - ax) * (by - ay);
     const double area = std::abs(doubled_area) / (2 * 256 * 256);
-    s.work = kSetup + kRow * s.rows() + kPixel * std::min(area, s.rows() * s.columns());
+    s.work = kSetup + (s.medium() ? kRowOfMedium : kRow) * s.rows() + kPixel * std::min(area, s.rows() * s.columns());
     list.samples[list.size++] = s;
   }
   return list;
@@ -125,7 +127,7 @@ Estimate estimate(const Samples& samples, std::size_t triangles, const TileGrid&
     // Cuts through a triangle that lies anywhere.
     const double row_cuts = std::min<double>(s.rows() * per_height, grid.rows() - 1);
     const double column_cuts = std::min<double>(s.columns() * per_width, grid.columns() - 1);
-    const bool clipped = std::max(s.rows(), s.columns()) > kUnclipped;
+    const bool clipped = !s.medium();
     const double cuts = row_cuts * std::min(s.work, kCutRows) + column_cuts * s.work * (clipped ? kCutColumns : 1);
     const double copies = tiles > 1 ? (row_cuts + 1) * (column_cuts + 1) * kCopy : 0;
     drawing += s.work;
