@@ -64,8 +64,6 @@ HWY_INLINE void store(const LaneSetup& s, StoredBlocks& to) {
   store(k_of_top(s.lower, middle), s.lower, to.lower);
 }
 
-inline constexpr int kRowsAtOnce = static_cast<int>(kLanes);
-
 /// Draws lane `lane`.
 HWY_INLINE void draw_block(const StoredBlocks& s, std::size_t lane, const Strips& strips) {
   const auto di = DI32();
@@ -80,8 +78,8 @@ HWY_INLINE void draw_block(const StoredBlocks& s, std::size_t lane, const Strips
   std::uint32_t* right = left + strips.stride;
   I32 row = hn::Iota(di, 0);
   F32 number = hn::ConvertTo(df, row);
-  for (int first = 0; first < kBlockRows; first += kRowsAtOnce) {
-    if ((kRowsAtOnce < kMaxLanes || first >= kUnaskedRows) && first >= s.rows[lane]) break;
+  for (int first = 0; first < kBlockRows; first += kLaneRows) {
+    if ((kLaneRows < kMaxLanes || first >= kUnaskedRows) && first >= s.rows[lane]) break;
     const auto above = cast(hn::Lt(row, middle));
     // Rows behind the last have both counts the same, hence nothing between them.
     const M32 live = hn::Lt(row, end);
@@ -91,8 +89,8 @@ HWY_INLINE void draw_block(const StoredBlocks& s, std::size_t lane, const Strips
     const NarrowCounts count1 = narrow(hn::IfThenElseZero(live, rounded(shorter)));
     add(bits_between(count0, count1), left + first);
     add(bits_between(count0, count1, kStripWidth), right + first);
-    row = hn::Add(row, hn::Set(di, kRowsAtOnce));
-    number = hn::Add(number, hn::Set(df, static_cast<float>(kRowsAtOnce)));
+    row = hn::Add(row, hn::Set(di, kLaneRows));
+    number = hn::Add(number, hn::Set(df, static_cast<float>(kLaneRows)));
   }
 }
 

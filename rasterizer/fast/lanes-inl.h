@@ -27,6 +27,8 @@ using U32 = hn::Vec<DU32>;
 using M32 = hn::Mask<DI32>;
 
 inline constexpr std::size_t kLanes = hn::MaxLanes(DI32());
+/// The same where rows are in lanes.
+inline constexpr int kLaneRows = static_cast<int>(kLanes);
 static_assert(kLanes <= kMaxLanes);
 
 /// Columns of samples of the triangles that are drawn a triangle to a lane: counts in two strips stay below 64.
