@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace edgecase::rasterizer::HWY_NAMESPACE {
 
 /// FastRasterizer::snap_on_grid(). Coordinates are scaled exactly. A cast there and back leaves whole numbers within
-/// reach as they are, and nothing else that is within reach: no NaN is.
+/// reach as they are, and nothing else that is within reach. No NaN is, and only what is may be cast.
 inline bool snap_on_grid(std::span<const Triangle> triangles, FixedTriangle<Format16_8>* snapped) {
   static_assert(sizeof(Triangle) == 6 * sizeof(float) && sizeof(*snapped) == 6 * sizeof(std::int32_t));
   constexpr float kScale = 1 << Format16_8::kSubpixelBits;
@@ -28,8 +28,9 @@ inline bool snap_on_grid(std::span<const Triangle> triangles, FixedTriangle<Form
   const std::size_t count = 6 * triangles.size();
   const auto each_on_grid = [&](F32 pixel, I32& whole) HWY_ATTR {
     const F32 scaled = hn::Mul(pixel, hn::Set(d, kScale));
-    whole = hn::ConvertTo(DI32(), scaled);
-    return hn::And(hn::Eq(hn::ConvertTo(d, whole), scaled), hn::Lt(hn::Abs(scaled), hn::Set(d, kReach)));
+    const auto in_reach = hn::Lt(hn::Abs(scaled), hn::Set(d, kReach));
+    whole = hn::ConvertTo(DI32(), hn::IfThenElseZero(in_reach, scaled));
+    return hn::And(hn::Eq(hn::ConvertTo(d, whole), scaled), in_reach);
   };
   auto on_grid = hn::Eq(hn::Zero(d), hn::Zero(d));
   I32 whole;
