@@ -95,6 +95,17 @@ TEST(Plan, TheWorkIsWhereTheTrianglesAre) {
   EXPECT_NEAR(sum(plan) / sum(make_plan(list, large, 4, 1, 1)), 1, 1e-6);
 }
 
+TEST(Plan, ListsSortedBySizeAreSharedByWork) {
+  const Target screen = *Target::make(1920, 1080);
+  std::vector<Fixed> list(100, triangle({{{0, 0}, {1920, 0}, {0, 1080}}}));
+  const auto small = triangles(screen, 900, 10, 1920);
+  list.insert(list.end(), small.begin(), small.end());
+  // A quarter of the work, which is the large ones', for each of two threads; of the list it would be 250.
+  const Plan plan = make_plan(list, screen, 2, 1, 1);
+  EXPECT_GT(plan.parts.begin(1) * plan.chunk, 10u);
+  EXPECT_LT(plan.parts.begin(2) * plan.chunk, 100u);
+}
+
 TEST(Plan, ChunksAndPartsSufficeForAllThreads) {
   const Target screen = *Target::make(1920, 1080);
   for (const std::size_t count : {1u, 30u, 2'000u, 100'000u}) {
