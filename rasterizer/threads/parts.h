@@ -1,10 +1,9 @@
 // Parts: how the chunks of a list are divided among threads that come for more whenever they are done.
 //
-// Every part costs its thread a cache line that others write to as well, 0.1 us within a group of cores and 0.4 us
-// between two: as much as drawing several triangles. Parts of the same size, small enough that waiting for the last one
-// costs little, are many. So the sizes fall, by factoring (Hummel, Schonberg and Flynn, "Factoring: A Method for
-// Scheduling Parallel Loops", 1992): a batch of one part for each thread takes half of what is left, until parts are
-// single chunks. Half is what makes up for parts that take up to twice as long as estimated.
+// Every part costs its thread a cache line that others write to as well, as much as drawing a few triangles. Parts of
+// the same size, small enough that waiting for the last one costs little, are many. So the sizes fall, by factoring
+// (Hummel, Schonberg and Flynn, "Factoring: A Method for Scheduling Parallel Loops", 1992): a batch of one part for
+// each thread takes half of what is left, until parts are single chunks.
 //
 // Sizes are of estimated work, not of chunks: lists sorted by size are common, and the first part of equal ones would
 // be most of them.
@@ -13,6 +12,7 @@
 #include <cassert>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace edgecase::rasterizer {
