@@ -37,20 +37,23 @@ std::optional<std::string> Judge::refusal(const Scene& scene, const RuleSet& rul
 tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   const auto drawn = subject_.draw_in_place(batch.scene, scratch_);
   if (!drawn) return tl::unexpected(drawn.error());
-  observed_ = *drawn;
+  drawn_ = *drawn;
+  observed_ = {};
   window_.reset();
   agreed_ = false;
   if (is_plain(batch)) {
-    auto agreed = reference_.expects(batch.scene, first_triangle, observed_);
+    auto agreed = reference_.expects(batch.scene, first_triangle, drawn_);
     if (!agreed) return tl::unexpected(agreed.error());
     agreed_ = *agreed;
   }
   if (!agreed_) {
+    observe();
     if (auto compared = compare(batch, first_triangle, outcome); !compared) return compared;
   } else {
     outcome.triangles.triangles += batch.scene.triangles.size();
     outcome.triangles.samples_compared += batch.scene.triangles.size() * MaskLayout(batch.scene.setting).sample_count();
     if (deviation_ != nullptr && deviation_->in_window.may_concern_any(batch.scene.setting, batch.scene.triangles)) {
+      observe();
       if (auto judged = judge_triangles(batch, true, outcome); !judged) return judged;
     }
   }

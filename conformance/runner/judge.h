@@ -13,6 +13,7 @@
 #include "conformance/compare/watertight.h"
 #include "conformance/runner/known_deviations.h"
 #include "conformance/runner/reference.h"
+#include "conformance/scene/drawn_masks.h"
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
 #include "conformance/scene/rule_set.h"
@@ -94,6 +95,8 @@ class Judge {
   const Scene& judged_scene(const Batch& batch) const { return window_ ? *window_ : batch.scene; }
   /// Whether the rules alone say what each triangle has to cover.
   bool is_plain(const Batch& batch) const;
+  /// Makes observed_ what drawn_ is.
+  void observe() { observed_ = drawn_.whole(scratch_); }
   /// Compares mask by mask.
   tl::expected<void, Error> compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// The masks that the last batch should have.
@@ -122,8 +125,10 @@ class Judge {
   const KnownDeviation* deviation_;
   bool agreed_ = false;  ///< the last batch was drawn as expected, and expected_ says nothing
   MaskBatch expected_;
-  MaskBatchView observed_;  ///< where the subject has them, or in scratch_
+  DrawnMasks drawn_;        ///< where the subject has them, or in scratch_
+  MaskBatchView observed_;  ///< the same, whole: where a batch agrees, only if need be
   MaskBatch scratch_;
+  MaskBatch mesh_masks_;
   std::optional<Scene> window_;
   std::vector<std::uint64_t> predicted_;
   std::vector<std::uint64_t> part_;

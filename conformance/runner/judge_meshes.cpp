@@ -33,7 +33,7 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
     }
     Watertightness found;
     if (const auto open = open_samples(scene, *batch.rule_set, mesh)) {
-      checker_->check(std::span(snapped_).first(mesh.count), observed_.data(mesh.first, mesh.count),
+      checker_->check(std::span(snapped_).first(mesh.count), drawn_.whole(mesh.first, mesh.count, mesh_masks_).data(),
                       first_triangle + mesh.first, found, *open);
     } else {
       found.meshes = found.folded_meshes = 1;
@@ -41,6 +41,7 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
     outcome.meshes.add(found);
     for (const auto& torn : {found.first_missing, found.first_doubled}) {
       if (!torn) continue;
+      observe();
       WrongSample wrong = *torn;
       wrong.triangle -= first_triangle;
       bool known = deviation_ != nullptr;

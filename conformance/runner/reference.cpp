@@ -40,7 +40,7 @@ tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t fi
 }
 
 tl::expected<bool, Error> Reference::expects(const Scene& scene, std::uint64_t first_index,
-                                             const MaskBatchView& observed) {
+                                             const DrawnMasks& observed) {
   window_.reset();
   if (const auto same = fast_ ? fast_->draws(scene, observed) : std::nullopt) {
     if (!*same) return false;
@@ -57,7 +57,9 @@ tl::expected<bool, Error> Reference::expects(const Scene& scene, std::uint64_t f
     const auto triangles = std::span(scene.triangles).subspan(first, std::min(most, scene.triangles.size() - first));
     part_.triangles.assign(triangles.begin(), triangles.end());
     if (auto drawn = expect_window(part_, first_index + first, parts_); !drawn) return tl::unexpected(drawn.error());
-    if (!std::ranges::equal(std::as_const(parts_).data(), observed.data(first, triangles.size()))) return false;
+    if (!std::ranges::equal(std::as_const(parts_).data(), observed.whole(first, triangles.size(), whole_).data())) {
+      return false;
+    }
   }
   return true;
 }
@@ -76,14 +78,14 @@ tl::expected<void, Error> Reference::expect_window(const Scene& scene, std::uint
       oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], must[i]);
     }
   }
-  return confirm_share(scene, first_index, must);
+  return confirm_share(scene, first_index, MaskBatchView(must));
 }
 
 tl::expected<void, Error> Reference::confirm_share(const Scene& scene, std::uint64_t first_index,
-                                                   const MaskBatchView& masks) {
+                                                   const DrawnMasks& masks) {
   for (std::size_t i = (kOracleShare - first_index % kOracleShare) % kOracleShare; i < scene.triangles.size();
        i += kOracleShare) {
-    if (auto confirmed = confirm_window(scene, i, masks[i]); !confirmed) return confirmed;
+    if (auto confirmed = confirm_window(scene, i, masks.whole(i, 1, whole_)[0]); !confirmed) return confirmed;
   }
   return {};
 }

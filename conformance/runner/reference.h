@@ -11,6 +11,7 @@
 
 #include "conformance/compare/clip_mesh.h"
 #include "conformance/models/window_scene.h"
+#include "conformance/scene/drawn_masks.h"
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
@@ -45,7 +46,7 @@ class Reference {
   /// Whether expect() would give just the masks `observed`, padding included; the oracles have their share of it. Only
   /// of window positions. Where the fast rasterizer cannot tell without masks, they are made and compared part by part,
   /// within the processor's cache, and none is kept.
-  tl::expected<bool, Error> expects(const Scene& scene, std::uint64_t first_index, const MaskBatchView& observed);
+  tl::expected<bool, Error> expects(const Scene& scene, std::uint64_t first_index, const DrawnMasks& observed);
 
   /// Where the subject's near plane lies, as far as that is known.
   NearPlane near_plane() const {
@@ -73,7 +74,7 @@ class Reference {
   tl::expected<void, Error> expect_window(const Scene& scene, std::uint64_t first_index, MaskBatch& must);
   tl::expected<void, Error> confirm_window(const Scene& scene, std::size_t index, MaskView must);
   /// Gives the oracles their share of `scene`; `masks` as `must` of expect().
-  tl::expected<void, Error> confirm_share(const Scene& scene, std::uint64_t first_index, const MaskBatchView& masks);
+  tl::expected<void, Error> confirm_share(const Scene& scene, std::uint64_t first_index, const DrawnMasks& masks);
   /// Fills snapped_ with the scene's vertices as its rules snap them.
   void snap_all(const Scene& scene);
 
@@ -85,6 +86,7 @@ class Reference {
   Scene part_;
   Scene snapped_;
   std::vector<std::uint64_t> scratch_;
+  MaskBatch whole_;
   std::uint64_t confirmed_ = 0;
 };
 

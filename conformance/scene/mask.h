@@ -33,6 +33,13 @@ struct MaskLayout {
            static_cast<std::size_t>(x) * static_cast<std::size_t>(samples) + static_cast<std::size_t>(sample);
   }
   friend bool operator==(const MaskLayout&, const MaskLayout&) = default;
+
+  /// Drivers write masks in 32-bit words, the less significant half of a word first, and where all samples of a row
+  /// find room in one, nothing but that one: half of what would have to be cleared, moved and compared.
+  bool has_short_rows() const { return target.width * samples <= 32; }
+  /// 32-bit words of a row as a driver writes it, and of such a mask.
+  std::size_t driver_row_words() const { return has_short_rows() ? 1 : 2 * row_words(); }
+  std::size_t driver_words() const { return driver_row_words() * static_cast<std::size_t>(target.height); }
 };
 
 /// Words of one mask in some MaskLayout, owned elsewhere.
@@ -55,6 +62,7 @@ class MaskBatchView {
     return data_.subspan(first * words_, count * words_);
   }
   std::span<const std::uint64_t> data() const { return data_; }
+  MaskBatchView part(std::size_t first, std::size_t count) const { return {words_, data(first, count)}; }
 
  private:
   std::size_t words_ = 0;

@@ -59,11 +59,12 @@ class Driver {
   /// first. A driver may work in it in place. The one before is there until the call returns.
   virtual void use_memory(std::span<std::byte>) {}
 
-  /// Draws each triangle into its own mask: `masks` holds primitives.triangles masks of MaskLayout(setting), at most
-  /// max_mask_bytes(), and every word of it is written. `setting` has standard sample locations, a sample count and a
-  /// target that info() allows. Returns the seconds that the driver took from submission to the end of the draw.
+  /// Draws each triangle into its own mask: `masks` holds primitives.triangles masks of MaskLayout(setting), in
+  /// driver_words() each and at most max_mask_bytes(), and every word of it is written. `setting` has standard sample
+  /// locations, a sample count and a target that info() allows. Returns the seconds that the driver took from
+  /// submission to the end of the draw.
   virtual tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
-                                           std::span<std::uint64_t> masks) = 0;
+                                           std::span<std::uint32_t> masks) = 0;
 };
 
 }  // namespace edgecase::conformance

@@ -103,6 +103,7 @@ struct Fast {
   std::vector<rasterizer::Triangle> triangles{};
   std::vector<FixedTriangle> snapped{};
   std::vector<std::uint64_t> masks{};
+  MaskBatch whole{};
 };
 
 /// The same in vectors. Vertices on a grid coarser than that of 16.8 lie on that one, too.
@@ -139,17 +140,20 @@ Failure draw_fast(Fast& fast, const Scene& scene, const rasterizer::Target& targ
   }
 }
 
-/// Whether `masks` are those of `triangles`.
+/// Whether masks `first` and following of `observed` are those of `triangles`.
 template <class View>
-bool draws_just(Fast& fast, std::span<const FixedTriangle> triangles, const View& view,
-                std::span<const std::uint64_t> masks) {
-  if constexpr (std::is_same_v<View, rasterizer::View<>>) {
+bool draws_just(Fast& fast, std::span<const FixedTriangle> triangles, const View& view, const DrawnMasks& observed,
+                std::size_t first) {
+  const auto compare = [&](const auto& masks) {
     return fast.rasterizer.first_difference(triangles, view.target, masks) == triangles.size();
-  } else {
-    fast.masks.resize(masks.size());
-    fast.rasterizer.cover_each(triangles, view, fast.masks);
-    return std::ranges::equal(fast.masks, masks);
-  }
+  };
+  constexpr bool kIsPlain = std::is_same_v<View, rasterizer::View<>>;
+  if (kIsPlain && observed.have_short_rows()) return compare(observed.short_rows(first, triangles.size()));
+  const auto masks = observed.whole(first, triangles.size(), fast.whole).data();
+  if (kIsPlain) return compare(masks);
+  fast.masks.resize(masks.size());
+  fast.rasterizer.cover_each(triangles, view, fast.masks);
+  return std::ranges::equal(fast.masks, masks);
 }
 
 struct FormatEntry {
@@ -200,7 +204,7 @@ class EdgecaseSubject : public Subject {
 
   // Part by part, so that what is made of each stays in the cache. Without subpixel bits half a pixel is no grid unit,
   // and subtracting it first makes a tie of a grid point.
-  std::optional<bool> draws(const Scene& scene, const MaskBatchView& observed) override {
+  std::optional<bool> draws(const Scene& scene, const DrawnMasks& observed) override {
     static_assert(rasterizer::FastRasterizer::kGridReach * (1 << Fixed::kSubpixelBits) <= kGridReach);
     const int bits = scene.rules.subpixel_bits;
     if (!fast_ || bits < 1 || bits > Fixed::kSubpixelBits || scene.setting.cull != CullMode::none) return std::nullopt;
@@ -214,9 +218,8 @@ class EdgecaseSubject : public Subject {
       const auto snapped = std::span(fast_->snapped).first(part.size());
       if (bits < Fixed::kSubpixelBits && !all_on_grid(part, std::ldexp(1.0F, bits))) return std::nullopt;
       if (!fast_->rasterizer.snap_on_grid(in_place(part), snapped)) return std::nullopt;
-      const bool equal = with_view(scene.setting, *target, [&](const auto& view) {
-        return draws_just(*fast_, snapped, view, observed.data(first, part.size()));
-      });
+      const bool equal = with_view(
+          scene.setting, *target, [&](const auto& view) { return draws_just(*fast_, snapped, view, observed, first); });
       if (!equal) return false;
     }
     return true;

@@ -41,7 +41,7 @@ class OsmesaDriver final : public Driver {
   const SubjectInfo& info() const override { return info_; }
   std::size_t max_mask_bytes() const override { return max_mask_bytes_; }
   tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
-                                   std::span<std::uint64_t> masks) override;
+                                   std::span<std::uint32_t> masks) override;
 
  private:
   // A linked program, and what its uniforms are set to.
@@ -228,7 +228,7 @@ tl::expected<void, Error> OsmesaDriver::use(const MaskLayout& layout, Program& p
     gl_.Uniform1ui(gl_.GetUniformLocation(program.name, name), static_cast<GLuint>(value));
   };
   set("samples", static_cast<std::size_t>(layout.samples));
-  set("row_words", layout.row_words() * 2);
+  set("row_words", layout.driver_row_words());
   set("rows", static_cast<std::size_t>(layout.target.height));
   set("columns", static_cast<std::size_t>(layout.target.width));
   program.layout = layout;
@@ -287,7 +287,7 @@ void OsmesaDriver::submit(const Primitives& primitives) const {
 }
 
 tl::expected<double, Error> OsmesaDriver::draw(const Setting& setting, const Primitives& primitives,
-                                               std::span<std::uint64_t> masks) {
+                                               std::span<std::uint32_t> masks) {
   if (primitives.triangles == 0) return 0;
   Program& program = primitives.plain_list() ? by_vertex_ : by_primitive_;
   if (auto used = use(MaskLayout(setting), program); !used) return tl::unexpected(used.error());

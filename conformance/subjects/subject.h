@@ -7,6 +7,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "conformance/scene/drawn_masks.h"
 #include "conformance/scene/error.h"
 #include "conformance/scene/mask.h"
 #include "conformance/scene/scene.h"
@@ -62,14 +63,14 @@ class Subject {
 
   /// The same for who only looks at the masks: they lie where the subject has them, or in `scratch`, and stay there
   /// until it draws again.
-  virtual tl::expected<MaskBatchView, Error> draw_in_place(const Scene& scene, MaskBatch& scratch) {
+  virtual tl::expected<DrawnMasks, Error> draw_in_place(const Scene& scene, MaskBatch& scratch) {
     if (auto drawn = draw(scene, scratch); !drawn) return tl::unexpected(drawn.error());
-    return scratch;
+    return DrawnMasks(scratch);
   }
 
   /// Whether draw() would give just the masks `observed`, padding included; nothing if the subject cannot tell without
   /// drawing them. May be asked of any scene, and answers for any way of snapping.
-  virtual std::optional<bool> draws(const Scene&, const MaskBatchView& /*observed*/) { return std::nullopt; }
+  virtual std::optional<bool> draws(const Scene&, const DrawnMasks& /*observed*/) { return std::nullopt; }
 
   /// Seconds that all draws so far took inside the driver itself, from submission to the last finished sample: what
   /// would be spent without this suite around it. 0 for a subject that does not measure it.

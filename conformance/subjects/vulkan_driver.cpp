@@ -36,7 +36,7 @@ class VulkanDriver final : public Driver {
   std::size_t max_mask_bytes() const override { return opened_->max_storage_bytes(); }
   void use_memory(std::span<std::byte> memory) override;
   tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
-                                   std::span<std::uint64_t> masks) override;
+                                   std::span<std::uint32_t> masks) override;
 
  private:
   struct Place {
@@ -63,7 +63,7 @@ class VulkanDriver final : public Driver {
     friend bool operator==(const Recorded&, const Recorded&) = default;
   };
 
-  std::optional<Places> shared_places(const Primitives& primitives, std::span<const std::uint64_t> masks) const;
+  std::optional<Places> shared_places(const Primitives& primitives, std::span<const std::uint32_t> masks) const;
   Places own_places(const Primitives& primitives, std::size_t mask_bytes);
   void record_draw(const Recorded& wanted);
   void record(const Recorded& wanted);
@@ -117,7 +117,7 @@ void VulkanDriver::use_memory(std::span<std::byte> memory) {
 }
 
 std::optional<VulkanDriver::Places> VulkanDriver::shared_places(const Primitives& primitives,
-                                                                std::span<const std::uint64_t> masks) const {
+                                                                std::span<const std::uint32_t> masks) const {
   if (!shared_) return std::nullopt;
   const auto vertices = shared_->offset_of(primitives.vertices), indices = shared_->offset_of(primitives.indices);
   const auto first_mask = shared_->offset_of(masks);
@@ -149,7 +149,7 @@ void VulkanDriver::record_draw(const Recorded& wanted) {
     return vk::Rect2D({r.x, r.y}, {static_cast<std::uint32_t>(r.width), static_cast<std::uint32_t>(r.height)});
   };
   const Viewport& viewport = wanted.viewport;
-  const PushConstants push{static_cast<std::uint32_t>(layout.row_words() * 2),
+  const PushConstants push{static_cast<std::uint32_t>(layout.driver_row_words()),
                            static_cast<std::uint32_t>(layout.target.height),
                            static_cast<std::uint32_t>(layout.target.width)};
   const auto render_pass = pipelines_->render_pass(layout.samples);
@@ -178,7 +178,7 @@ void VulkanDriver::record(const Recorded& wanted) {
   recorded_.reset();
   commands_.reset();
   const auto& [buffer, offset] = wanted.places.masks;
-  const vk::DeviceSize bytes = MaskLayout(wanted.setting).words() * sizeof(std::uint64_t) * wanted.triangles;
+  const vk::DeviceSize bytes = MaskLayout(wanted.setting).driver_words() * sizeof(std::uint32_t) * wanted.triangles;
   const vk::DescriptorBufferInfo masks(buffer, offset, bytes);
   device_.updateDescriptorSets(
       vk::WriteDescriptorSet(*descriptor_set_, 0, 0, vk::DescriptorType::eStorageBuffer, {}, masks), {});
@@ -197,7 +197,7 @@ void VulkanDriver::record(const Recorded& wanted) {
 }
 
 tl::expected<double, Error> VulkanDriver::draw(const Setting& setting, const Primitives& primitives,
-                                               std::span<std::uint64_t> masks) {
+                                               std::span<std::uint32_t> masks) {
   double seconds = 0;
   if (primitives.triangles == 0) return seconds;
   try {

@@ -92,8 +92,8 @@ DrawReply draw(Driver& driver, SharedMemory& memory, const DrawRequest& request)
   primitives.indices = {reinterpret_cast<const std::uint32_t*>(memory.data() + request.indices_offset),
                         request.indices};
   primitives.triangles = request.triangles;
-  const std::span masks(reinterpret_cast<std::uint64_t*>(memory.data() + request.masks_offset),
-                        MaskLayout(setting).words() * request.triangles);
+  const std::span masks(reinterpret_cast<std::uint32_t*>(memory.data() + request.masks_offset),
+                        MaskLayout(setting).driver_words() * request.triangles);
   if (auto seconds = driver.draw(setting, primitives, masks)) {
     reply.driver_seconds = *seconds;
   } else {

@@ -21,6 +21,8 @@ constexpr double kMicrosecondsPerSample = 2;
 // The most that a Vulkan device may ask for of where a storage buffer begins.
 constexpr std::size_t kAlignment = 256;
 
+std::size_t drawn_bytes(const MaskLayout& layout) { return layout.driver_words() * sizeof(std::uint32_t); }
+
 std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
 // An assembly's triangles share vertices, and are numbered through. What llvmpipe culls depends on what else it clips
@@ -61,7 +63,7 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
   const bool carried = viewport_.carries(scene.triangles);
   if (auto reason = carried ? refusal_of_setting(scene) : Subject::refusal(scene)) return reason;
   if (!has_standard_samples(scene.setting)) return "sample locations other than the standard ones";
-  const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
+  const std::size_t mask_bytes = drawn_bytes(MaskLayout(scene.setting));
   if (mask_bytes > max_mask_bytes_) {
     return fmt::format("a mask of {} bytes is larger than its largest buffer, {}", mask_bytes, max_mask_bytes_);
   }
@@ -88,7 +90,7 @@ std::optional<std::string> WorkerSubject::refusal(const Scene& scene) const {
 
 std::size_t WorkerSubject::most_at_once(const Scene& scene) const {
   if (in_one_draw(scene)) return triangle_count(scene);
-  const std::size_t mask_bytes = MaskLayout(scene.setting).words() * sizeof(std::uint64_t);
+  const std::size_t mask_bytes = drawn_bytes(MaskLayout(scene.setting));
   return std::max<std::size_t>(1, std::min(kPartBytes, max_mask_bytes_) / mask_bytes);
 }
 
@@ -99,12 +101,12 @@ tl::expected<void, Error> WorkerSubject::draw(const Scene& scene, MaskBatch& mas
   for (std::size_t first = 0; first < triangles; first += part) {
     const auto drawn = draw_part(scene, first, std::min(part, triangles - first));
     if (!drawn) return tl::unexpected(drawn.error());
-    std::memcpy(masks[first].data(), drawn->data().data(), drawn->data().size_bytes());
+    drawn->copy_to(masks[first].data());
   }
   return {};
 }
 
-tl::expected<MaskBatchView, Error> WorkerSubject::draw_in_place(const Scene& scene, MaskBatch& scratch) {
+tl::expected<DrawnMasks, Error> WorkerSubject::draw_in_place(const Scene& scene, MaskBatch& scratch) {
   const std::size_t triangles = triangle_count(scene);
   if (triangles == 0 || triangles > most_at_once(scene)) return Subject::draw_in_place(scene, scratch);
   return draw_part(scene, 0, triangles);
@@ -129,7 +131,7 @@ tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std:
   request.indices_offset = aligned(request.vertices * sizeof(ClipPosition));
   request.masks_offset = request.indices_offset + aligned(request.indices * sizeof(std::uint32_t));
   SharedMemory& memory = worker_->memory();
-  if (auto grown = memory.grow(request.masks_offset + layout.words() * sizeof(std::uint64_t) * count); !grown) {
+  if (auto grown = memory.grow(request.masks_offset + drawn_bytes(layout) * count); !grown) {
     return tl::unexpected(grown.error());
   }
   request.memory_bytes = memory.size();
@@ -149,7 +151,7 @@ tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std:
   return request;
 }
 
-tl::expected<MaskBatchView, Error> WorkerSubject::draw_part(const Scene& scene, std::size_t first, std::size_t count) {
+tl::expected<DrawnMasks, Error> WorkerSubject::draw_part(const Scene& scene, std::size_t first, std::size_t count) {
   const auto failure = [&](ErrorKind kind, std::string_view what) {
     return tl::unexpected(Error{kind, fmt::format("{}: {}", info_.name, what)});
   };
@@ -174,8 +176,11 @@ tl::expected<MaskBatchView, Error> WorkerSubject::draw_part(const Scene& scene, 
     return failure(reply->status.kind, reply->status.message.view());
   }
   driver_seconds_ += reply->driver_seconds;
-  const auto* masks = reinterpret_cast<const std::uint64_t*>(worker_->memory().data() + request->masks_offset);
-  return MaskBatchView(layout.words(), {masks, layout.words() * count});
+  const std::byte* masks = worker_->memory().data() + request->masks_offset;
+  if (layout.has_short_rows()) {
+    return DrawnMasks(layout, {reinterpret_cast<const std::uint32_t*>(masks), layout.driver_words() * count});
+  }
+  return MaskBatchView(layout.words(), {reinterpret_cast<const std::uint64_t*>(masks), layout.words() * count});
 }
 
 }  // namespace edgecase::conformance

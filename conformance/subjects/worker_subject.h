@@ -25,7 +25,7 @@ class WorkerSubject final : public Subject {
   std::optional<std::string> refusal(const Scene& scene) const override;
   tl::expected<void, Error> draw(const Scene& scene, MaskBatch& masks) override;
   /// In the memory that it shares with the worker, if one draw suffices.
-  tl::expected<MaskBatchView, Error> draw_in_place(const Scene& scene, MaskBatch& scratch) override;
+  tl::expected<DrawnMasks, Error> draw_in_place(const Scene& scene, MaskBatch& scratch) override;
   double driver_seconds() const override { return driver_seconds_; }
 
  private:
@@ -35,7 +35,7 @@ class WorkerSubject final : public Subject {
   /// How many triangles one draw may hold.
   std::size_t most_at_once(const Scene& scene) const;
   /// Their masks, in the worker's memory.
-  tl::expected<MaskBatchView, Error> draw_part(const Scene& scene, std::size_t first, std::size_t count);
+  tl::expected<DrawnMasks, Error> draw_part(const Scene& scene, std::size_t first, std::size_t count);
 
   WorkerCommand command_;
   std::unique_ptr<WorkerProcess> worker_;  ///< none after a crash

@@ -57,10 +57,10 @@ TEST(Reference, GivesTheOraclesTheirShareOfWhatAgrees) {
     ASSERT_TRUE(reference.expect(scene, 1, masks));
     const std::uint64_t share = reference.confirmed();
     EXPECT_EQ(share, (scene.triangles.size() + 1 + kOracleShare - 1) / kOracleShare - 1);
-    ASSERT_EQ(reference.expects(scene, 1, masks), true);
+    ASSERT_EQ(reference.expects(scene, 1, MaskBatchView(masks)), true);
     EXPECT_EQ(reference.confirmed(), 2 * share);
     masks[scene.triangles.size() - 1][3] ^= 4;
-    ASSERT_EQ(reference.expects(scene, 1, masks), false);
+    ASSERT_EQ(reference.expects(scene, 1, MaskBatchView(masks)), false);
   }
 }
 

@@ -39,7 +39,7 @@ class MisbehavingDriver final : public Driver {
   const SubjectInfo& info() const override { return info_; }
   std::size_t max_mask_bytes() const override { return 4096; }
   tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
-                                   std::span<std::uint64_t> masks) override {
+                                   std::span<std::uint32_t> masks) override {
     const auto first_x = [&](std::size_t triangle) { return primitives.vertices[3 * triangle].x * kMaxCoordinate; };
     const float what = first_x(0);
     if (what == 900) {
@@ -55,7 +55,7 @@ class MisbehavingDriver final : public Driver {
     if (what == 904) {
       for (int line = 0; line < 40'000; ++line) std::puts("chatter that would fill any pipe in a moment");
     }
-    const std::size_t words = MaskLayout(setting).words();
+    const std::size_t words = MaskLayout(setting).driver_words();
     for (std::size_t i = 0; i < primitives.triangles; ++i) {
       std::ranges::fill(masks.subspan(i * words, words), std::bit_cast<std::uint32_t>(first_x(i)));
     }

@@ -46,6 +46,10 @@ class FastRasterizerTest : public testing::TestWithParam<Isa> {
     Words each(triangles.size() * target.mask_words(), ~std::uint64_t{0});
     fast_.cover_each(triangles, target, each);
     ASSERT_EQ(fast_.first_difference(triangles, target, each), triangles.size());
+    if (target.width().value() <= 32) {
+      const std::vector<std::uint32_t> rows(each.begin(), each.end());
+      ASSERT_EQ(fast_.first_difference(triangles, target, rows), triangles.size());
+    }
     // As many as leave a vector of the widest kind half filled, and few enough to leave the mask partly empty.
     constexpr std::size_t kUnited = 3 * kMaxLanes / 2;
     Words united(target.mask_words());
@@ -200,7 +204,19 @@ TEST_P(FastRasterizerTest, FindsEveryBitThatDiffers) {
         each[word] ^= std::uint64_t{1} << bit;
       }
     }
-    ASSERT_EQ(fast_.first_difference({}, target, {}), 0U);
+    ASSERT_EQ(fast_.first_difference({}, target, std::span<const std::uint64_t>()), 0U);
+    if (width > 32) continue;
+    std::vector<std::uint32_t> rows(each.begin(), each.end());
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      for (const int bit : {0, 17, 30, 31}) {
+        rows[row] ^= std::uint32_t{1} << bit;
+        ASSERT_EQ(fast_.first_difference(triangles, target, rows), row / target.mask_words())
+            << width << "x" << height << ", row " << row << ", bit " << bit;
+        rows[row] ^= std::uint32_t{1} << bit;
+      }
+    }
+    ASSERT_EQ(fast_.first_difference(triangles, target, rows), triangles.size());
+    ASSERT_EQ(fast_.first_difference({}, target, std::span<const std::uint32_t>()), 0U);
   }
 }
 

@@ -37,11 +37,20 @@ std::unique_ptr<Subject> started(WorkerCommand command = misbehaving()) {
   return subject ? std::move(*subject) : nullptr;
 }
 
-Scene scene_of(std::vector<float> first_x) {
+constexpr Extent kShortRows{8, 8};
+constexpr Extent kLongRows{33, 4};
+
+Scene scene_of(const std::vector<float>& first_x, Extent target = kShortRows) {
   Scene scene;
-  scene.setting.target = {8, 8};
+  scene.setting.target = target;
   for (const float x : first_x) scene.triangles.push_back(Triangle{{{x, 0}, {1, 0}, {0, 1}}});
   return scene;
+}
+
+// What each 64-bit word of triangle i's mask is.
+std::uint64_t word_of(const Scene& scene, std::size_t i) {
+  const std::uint64_t bits = std::bit_cast<std::uint32_t>(scene.triangles[i][0].x);
+  return scene.setting.target == kShortRows ? bits : bits << 32 | bits;
 }
 
 void expect_draws(Subject& subject, const Scene& scene) {
@@ -50,7 +59,7 @@ void expect_draws(Subject& subject, const Scene& scene) {
   ASSERT_TRUE(result) << result.error().message;
   ASSERT_EQ(masks.size(), scene.triangles.size());
   for (std::size_t i = 0; i < masks.size(); ++i) {
-    ASSERT_THAT(masks[i], testing::Each(std::bit_cast<std::uint32_t>(scene.triangles[i][0].x))) << i;
+    ASSERT_THAT(masks[i], testing::Each(word_of(scene, i))) << i;
   }
 }
 
@@ -78,16 +87,18 @@ TEST(Worker, TellsWhatTheDriverSays) {
   EXPECT_EQ(subject->driver_seconds(), 0.25);
 }
 
-// Masks of 64 bytes in buffers of 4,096: 64 triangles a draw.
+// Masks of 32 bytes in buffers of 4,096: 128 triangles a draw.
 TEST(Worker, SplitsBatchesByTheDriversBuffer) {
   const auto subject = started();
   ASSERT_NE(subject, nullptr);
-  for (const std::size_t count : {0U, 1U, 63U, 64U, 65U, 1000U}) {
-    std::vector<float> first_x(count);
-    for (std::size_t i = 0; i < count; ++i) first_x[i] = static_cast<float>(i % 800);
-    const double before = subject->driver_seconds();
-    expect_draws(*subject, scene_of(first_x));
-    EXPECT_EQ(subject->driver_seconds() - before, 0.25 * static_cast<double>((count + 63) / 64)) << count;
+  for (const Extent& target : {kShortRows, kLongRows}) {
+    for (const std::size_t count : {0U, 1U, 127U, 128U, 129U, 1000U}) {
+      std::vector<float> first_x(count);
+      for (std::size_t i = 0; i < count; ++i) first_x[i] = static_cast<float>(i % 800);
+      const double before = subject->driver_seconds();
+      expect_draws(*subject, scene_of(first_x, target));
+      EXPECT_EQ(subject->driver_seconds() - before, 0.25 * static_cast<double>((count + 127) / 128)) << count;
+    }
   }
 }
 
@@ -95,30 +106,38 @@ TEST(Worker, SplitsBatchesByTheDriversBuffer) {
 TEST(Worker, MasksInPlaceAreThoseThatItWouldCopy) {
   const auto subject = started();
   ASSERT_NE(subject, nullptr);
-  for (const std::size_t count : {0U, 1U, 64U, 65U, 130U}) {
-    std::vector<float> first_x(count);
-    for (std::size_t i = 0; i < count; ++i) first_x[i] = static_cast<float>(count + i);
-    const Scene scene = scene_of(first_x);
-    MaskBatch scratch;
-    const auto masks = subject->draw_in_place(scene, scratch);
-    ASSERT_TRUE(masks) << masks.error().message;
-    ASSERT_EQ(masks->size(), count);
-    for (std::size_t i = 0; i < count; ++i) {
-      ASSERT_THAT((*masks)[i], testing::Each(std::bit_cast<std::uint32_t>(scene.triangles[i][0].x))) << i;
+  for (const Extent& target : {kShortRows, kLongRows}) {
+    for (const std::size_t count : {0U, 1U, 128U, 129U, 260U}) {
+      std::vector<float> first_x(count);
+      for (std::size_t i = 0; i < count; ++i) first_x[i] = static_cast<float>(count + i);
+      const Scene scene = scene_of(first_x, target);
+      MaskBatch scratch;
+      const auto masks = subject->draw_in_place(scene, scratch);
+      ASSERT_TRUE(masks) << masks.error().message;
+      ASSERT_EQ(masks->size(), count);
+      EXPECT_EQ(masks->have_short_rows(), 0 < count && count <= 128 && target == kShortRows);
+      EXPECT_EQ(scratch.size(), count <= 128 ? 0 : count);
+      MaskBatch whole;
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_THAT(masks->whole(i, 1, whole)[0], testing::Each(word_of(scene, i))) << i;
+      }
+      const MaskBatchView all = masks->whole(whole);
+      ASSERT_EQ(all.size(), count);
+      for (std::size_t i = 0; i < count; ++i) ASSERT_THAT(all[i], testing::Each(word_of(scene, i))) << i;
     }
-    EXPECT_EQ(scratch.size(), count <= 64 ? 0 : count);
   }
 }
 
 TEST(Worker, CrashNamesSignalTrianglesAndLastWordsAndIsOvercome) {
   const auto subject = started();
   ASSERT_NE(subject, nullptr);
-  std::vector<float> first_x(100, 5);
-  first_x[64] = kAbort;
+  std::vector<float> first_x(200, 5);
+  first_x[128] = kAbort;
   for (int round = 0; round < 3; ++round) {
     expect_draws(*subject, scene_of({1, 2}));
     const std::string error = error_of(*subject, scene_of(first_x));
-    EXPECT_THAT(error, StartsWith("misbehaving: drawing triangles 64 to 99 of 100, the driver died of signal SIGABRT"));
+    EXPECT_THAT(error,
+                StartsWith("misbehaving: drawing triangles 128 to 199 of 200, the driver died of signal SIGABRT"));
     EXPECT_THAT(error, HasSubstr("the driver's own complaint in two lines"));
   }
   expect_draws(*subject, scene_of({1, 2}));

@@ -56,20 +56,57 @@ HWY_INLINE bool take_equal(const Strips& strips, std::uint64_t last_word, const 
   return differing == 0;
 }
 
-inline std::size_t first_difference(std::span<const SnappedTriangle> triangles, int width, const Scratch& scratch,
-                                    const std::uint64_t* masks) {
-  const std::uint64_t last_word = ~std::uint64_t{0} >> (63 - (width - 1) % 64);
-  const std::size_t mask_words =
-      static_cast<std::size_t>(scratch.strips.count + 1) / 2 * static_cast<std::size_t>(scratch.strips.height);
+/// Whether `rows`, of 32 bits, are those of the only strip, as far as they are pixels. Clears the strip.
+HWY_INLINE bool take_equal_short(const Strips& strip, std::uint32_t pixels, const std::uint32_t* rows) {
+  const auto d = DU32();
+  auto differing = hn::Zero(d);
+  int y = 0;
+  for (; y + kLaneRows <= strip.height; y += kLaneRows) {
+    const U32 drawn = hn::And(hn::LoadU(d, strip.words + y), hn::Set(d, pixels));
+    differing = hn::Or(differing, hn::Xor(drawn, hn::LoadU(d, rows + y)));
+    hn::StoreU(hn::Zero(d), d, strip.words + y);
+  }
+  std::uint32_t rest = 0;
+  for (; y < strip.height; ++y) {
+    rest |= (strip.words[y] & pixels) ^ rows[y];
+    strip.words[y] = 0;
+  }
+  return rest == 0 && hn::AllTrue(d, hn::Eq(differing, hn::Zero(d)));
+}
+
+/// The first triangle for which take_equal(strips, i) is false, the strips being those that it was drawn into;
+/// triangles.size() if there is none.
+template <class TakeEqual>
+HWY_INLINE std::size_t first_taken_unequal(std::span<const SnappedTriangle> triangles, int width,
+                                           const Scratch& scratch, const TakeEqual& take_equal) {
   for (std::size_t first = 0; first < triangles.size(); first += scratch.masks) {
     const auto list = triangles.subspan(first, std::min(scratch.masks, triangles.size() - first));
     draw_list(list, CentrePlane(), width, scratch.apart, scratch.strips);
     Strips own = scratch.strips;
     for (std::size_t i = 0; i < list.size(); ++i, own.words += scratch.apart) {
-      if (!take_equal(own, last_word, masks + (first + i) * mask_words)) return first + i;
+      if (!take_equal(own, first + i)) return first + i;
     }
   }
   return triangles.size();
+}
+
+inline std::size_t first_difference(std::span<const SnappedTriangle> triangles, int width, const Scratch& scratch,
+                                    const std::uint64_t* masks) {
+  const std::uint64_t last_word = ~std::uint64_t{0} >> (63 - (width - 1) % 64);
+  const std::size_t mask_words =
+      static_cast<std::size_t>(scratch.strips.count + 1) / 2 * static_cast<std::size_t>(scratch.strips.height);
+  return first_taken_unequal(triangles, width, scratch, [&](const Strips& strips, std::size_t i) HWY_ATTR {
+    return take_equal(strips, last_word, masks + i * mask_words);
+  });
+}
+
+inline std::size_t first_short_difference(std::span<const SnappedTriangle> triangles, int width, const Scratch& scratch,
+                                          const std::uint32_t* rows) {
+  const std::uint32_t pixels = ~std::uint32_t{0} >> (kStripWidth - width);
+  const auto height = static_cast<std::size_t>(scratch.strips.height);
+  return first_taken_unequal(triangles, width, scratch, [&](const Strips& strips, std::size_t i) HWY_ATTR {
+    return take_equal_short(strips, pixels, rows + i * height);
+  });
 }
 
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE

@@ -150,6 +150,15 @@ std::size_t FastRasterizer::first_difference(Triangles triangles, const Target& 
   return kernels_->first_difference(triangles, target.width().value(), scratch, masks.data());
 }
 
+std::size_t FastRasterizer::first_difference(Triangles triangles, const Target& target,
+                                             std::span<const std::uint32_t> rows) const {
+  const int width = target.width().value(), height = target.height().value();
+  assert(width <= kStripWidth && rows.size() == triangles.size() * static_cast<std::size_t>(height));
+  std::vector<std::uint32_t> words;
+  const Scratch scratch = make_scratch(StripLayout(target), height, 1, words);
+  return kernels_->first_short_difference(triangles, width, scratch, rows.data());
+}
+
 void FastRasterizer::count_each(Triangles triangles, const Target& target, std::span<std::uint64_t> counts) const {
   assert(counts.size() == triangles.size());
   kernels_->count_each(triangles, target.width().value(), target.height().value(), counts.data());

@@ -73,6 +73,8 @@ class FastRasterizer {
   /// The index of the first triangle of which `masks` does not hold what cover_each() would write, or
   /// triangles.size(). No mask is written for it: what is drawn is compared where it is drawn.
   std::size_t first_difference(Triangles triangles, const Target& target, std::span<const std::uint64_t> masks) const;
+  /// The same of masks whose rows are 32 bits, for targets of at most 32 columns: a word for each row.
+  std::size_t first_difference(Triangles triangles, const Target& target, std::span<const std::uint32_t> rows) const;
 
   /// Writes how many samples every triangle covers: as many numbers as there are triangles. No mask is drawn for it.
   void count_each(Triangles triangles, const Target& target, std::span<std::uint64_t> counts) const;

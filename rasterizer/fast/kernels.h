@@ -41,6 +41,7 @@ struct FastRasterizer::Kernels {
                         std::uint64_t* masks);
   /// The scratch is clear.
   std::size_t (*first_difference)(Triangles, int width, const Scratch&, const std::uint64_t* masks);
+  std::size_t (*first_short_difference)(Triangles, int width, const Scratch&, const std::uint32_t* rows);
   void (*count_each)(Triangles, int width, int height, std::uint64_t* counts);
   /// The region begins with its first pixel.
   void (*count_each_in)(Triangles, const Region&, std::uint64_t* counts);
