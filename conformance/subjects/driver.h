@@ -17,13 +17,20 @@ namespace edgecase::conformance {
 struct Primitives {
   /// A negative height only where SubjectInfo::flipped_viewport says so.
   Viewport viewport;
-  std::span<const ClipPosition> vertices;
+  /// Of each vertex so many as `components`: x, y, z and w in clip space; or x and y only, and z is 0 and w is 1.
+  std::span<const float> coordinates;
+  std::size_t components = 4;
   Topology topology = Topology::list;
   /// Vertex numbers or kRestartIndex; empty draws the vertices in their order.
   std::span<const std::uint32_t> indices;
   /// How many triangles that makes.
   std::size_t triangles = 0;
 
+  std::size_t vertices() const { return coordinates.size() / components; }
+  ClipPosition vertex(std::size_t i) const {
+    const float* c = coordinates.data() + i * components;
+    return components == 2 ? ClipPosition{c[0], c[1], 0, 1} : ClipPosition{c[0], c[1], c[2], c[3]};
+  }
   /// Whether triangle i simply is vertices 3 * i to 3 * i + 2.
   bool plain_list() const { return topology == Topology::list && indices.empty(); }
 };

@@ -256,8 +256,9 @@ void OsmesaDriver::set_state(const Setting& setting, const Viewport& viewport) c
 
 void OsmesaDriver::upload(const Primitives& primitives, std::size_t mask_bytes) {
   vertices_.clear();
-  GLuint number = 0;
-  for (const ClipPosition& p : primitives.vertices) vertices_.push_back({p, number++ / 3});
+  for (std::size_t i = 0; i < primitives.vertices(); ++i) {
+    vertices_.push_back({primitives.vertex(i), static_cast<GLuint>(i / 3)});
+  }
   const auto put = [this](GLenum buffer, const void* data, std::size_t bytes, std::size_t& capacity) {
     if (capacity < bytes) {
       capacity = std::bit_ceil(bytes);
@@ -278,7 +279,7 @@ void OsmesaDriver::submit(const Primitives& primitives) const {
                       : primitives.topology == Topology::strip ? GL_TRIANGLE_STRIP
                                                                : GL_TRIANGLE_FAN;
   if (primitives.indices.empty()) {
-    gl_.DrawArrays(mode, 0, static_cast<GLsizei>(primitives.vertices.size()));
+    gl_.DrawArrays(mode, 0, static_cast<GLsizei>(primitives.vertices()));
     return;
   }
   gl_.Enable(GL_PRIMITIVE_RESTART);

@@ -57,6 +57,7 @@ class VulkanDriver final : public Driver {
     Setting setting;
     Viewport viewport;
     Topology topology = Topology::list;
+    std::size_t components = 0;
     std::size_t vertices = 0;
     std::size_t indices = 0;
     std::size_t triangles = 0;
@@ -119,7 +120,7 @@ void VulkanDriver::use_memory(std::span<std::byte> memory) {
 std::optional<VulkanDriver::Places> VulkanDriver::shared_places(const Primitives& primitives,
                                                                 std::span<const std::uint32_t> masks) const {
   if (!shared_) return std::nullopt;
-  const auto vertices = shared_->offset_of(primitives.vertices), indices = shared_->offset_of(primitives.indices);
+  const auto vertices = shared_->offset_of(primitives.coordinates), indices = shared_->offset_of(primitives.indices);
   const auto first_mask = shared_->offset_of(masks);
   if (!vertices || !indices || !first_mask) return std::nullopt;
   const vk::Buffer buffer = shared_->buffer();
@@ -133,7 +134,7 @@ VulkanDriver::Places VulkanDriver::own_places(const Primitives& primitives, std:
     recorded_.reset();
     buffer = MappedBuffer::make(*opened_, std::min(std::bit_ceil(bytes), most), use);
   };
-  reserve(vertices_, primitives.vertices.size_bytes(), kVertexUse, SIZE_MAX);
+  reserve(vertices_, primitives.coordinates.size_bytes(), kVertexUse, SIZE_MAX);
   reserve(indices_, primitives.indices.size_bytes(), kIndexUse, SIZE_MAX);
   reserve(masks_, mask_bytes, kMaskUse, opened_->max_storage_bytes());
   return {{*vertices_.buffer, 0}, {*indices_.buffer, 0}, {*masks_.buffer, 0}};
@@ -143,8 +144,8 @@ void VulkanDriver::record_draw(const Recorded& wanted) {
   const Setting& setting = wanted.setting;
   const MaskLayout layout(setting);
   const bool plain_list = wanted.topology == Topology::list && wanted.indices == 0;
-  const auto pipeline = pipelines_->pipeline(
-      {layout.samples, setting.cull, setting.front_face, wanted.topology, /*primitive_id=*/!plain_list});
+  const auto pipeline = pipelines_->pipeline({layout.samples, setting.cull, setting.front_face, wanted.topology,
+                                              /*primitive_id=*/!plain_list, wanted.components});
   const auto rect = [](const Rect& r) {
     return vk::Rect2D({r.x, r.y}, {static_cast<std::uint32_t>(r.width), static_cast<std::uint32_t>(r.height)});
   };
@@ -203,10 +204,10 @@ tl::expected<double, Error> VulkanDriver::draw(const Setting& setting, const Pri
   try {
     const auto shared = shared_places(primitives, masks);
     const Places places = shared ? *shared : own_places(primitives, masks.size_bytes());
-    record({places, setting, primitives.viewport, primitives.topology, primitives.vertices.size(),
+    record({places, setting, primitives.viewport, primitives.topology, primitives.components, primitives.vertices(),
             primitives.indices.size(), primitives.triangles});
     if (!shared) {
-      std::ranges::copy(primitives.vertices, static_cast<ClipPosition*>(vertices_.data));
+      std::ranges::copy(primitives.coordinates, static_cast<float*>(vertices_.data));
       std::ranges::copy(primitives.indices, static_cast<std::uint32_t*>(indices_.data));
     }
     const auto start = std::chrono::steady_clock::now();

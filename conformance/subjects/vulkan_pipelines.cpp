@@ -105,8 +105,11 @@ vk::raii::Pipeline VulkanPipelines::make_pipeline(const PipelineKey& key) {
   const std::array stages{vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex, "main"),
                           vk::PipelineShaderStageCreateInfo({}, Stage::eFragment, *fragment, "main", &constants)};
 
-  const vk::VertexInputBindingDescription binding(0, sizeof(ClipPosition), vk::VertexInputRate::eVertex);
-  const vk::VertexInputAttributeDescription position(0, 0, vk::Format::eR32G32B32A32Sfloat, 0);
+  const vk::VertexInputBindingDescription binding(0, static_cast<std::uint32_t>(key.components * sizeof(float)),
+                                                  vk::VertexInputRate::eVertex);
+  // Where a format lacks components, z is 0 and w is 1.
+  const vk::Format format = key.components == 2 ? vk::Format::eR32G32Sfloat : vk::Format::eR32G32B32A32Sfloat;
+  const vk::VertexInputAttributeDescription position(0, 0, format, 0);
   const vk::PipelineVertexInputStateCreateInfo input({}, binding, position);
   const vk::PipelineInputAssemblyStateCreateInfo assembly({}, to_vulkan(key.topology),
                                                           key.topology == Topology::list ? VK_FALSE : VK_TRUE);

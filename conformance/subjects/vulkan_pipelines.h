@@ -21,6 +21,8 @@ struct PipelineKey {
   Topology topology = Topology::list;
   /// Triangles are numbered by gl_PrimitiveID instead of by threes of vertices.
   bool primitive_id = false;
+  /// Of a vertex: as in Primitives.
+  std::size_t components = 4;
   auto operator<=>(const PipelineKey&) const = default;
 };
 

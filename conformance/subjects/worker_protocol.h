@@ -60,7 +60,7 @@ struct WorkerHello {
 };
 
 /// Program to worker: draw what lies at the start of the shared memory, leave the masks at `masks_offset`. The
-/// vertices, as ClipPosition, lie at its very start.
+/// vertices' coordinates, as in Primitives, lie at its very start.
 struct DrawRequest {
   std::int32_t width = 0;
   std::int32_t height = 0;
@@ -73,6 +73,7 @@ struct DrawRequest {
   Topology topology = Topology::list;
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
+  std::uint64_t components = 0;  ///< of a vertex
   std::uint64_t indices = 0;
   std::uint64_t indices_offset = 0;  ///< bytes, a multiple of 8, as the next
   std::uint64_t masks_offset = 0;

@@ -87,7 +87,8 @@ DrawReply draw(Driver& driver, SharedMemory& memory, const DrawRequest& request)
   setting.front_face = request.front_face;
   Primitives primitives;
   primitives.viewport = request.viewport;
-  primitives.vertices = {reinterpret_cast<const ClipPosition*>(memory.data()), request.vertices};
+  primitives.coordinates = {reinterpret_cast<const float*>(memory.data()), request.vertices * request.components};
+  primitives.components = request.components;
   primitives.topology = request.topology;
   primitives.indices = {reinterpret_cast<const std::uint32_t*>(memory.data() + request.indices_offset),
                         request.indices};

@@ -128,7 +128,8 @@ tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std:
   request.triangles = count;
   request.vertices = scene.assembly ? scene.assembly->vertices.size() : 3 * count;
   request.indices = scene.assembly ? scene.assembly->indices.size() : 0;
-  request.indices_offset = aligned(request.vertices * sizeof(ClipPosition));
+  request.components = scene.clip ? 4 : 2;
+  request.indices_offset = aligned(request.vertices * request.components * sizeof(float));
   request.masks_offset = request.indices_offset + aligned(request.indices * sizeof(std::uint32_t));
   SharedMemory& memory = worker_->memory();
   if (auto grown = memory.grow(request.masks_offset + drawn_bytes(layout) * count); !grown) {
@@ -136,11 +137,13 @@ tl::expected<DrawRequest, Error> WorkerSubject::lay_out(const Scene& scene, std:
   }
   request.memory_bytes = memory.size();
 
-  auto* vertex = reinterpret_cast<ClipPosition*>(memory.data());
-  const auto add = [&](const Position& p) { *vertex++ = {viewport_.ndc(p.x), viewport_.ndc(p.y), 0, 1}; };
+  auto* position = reinterpret_cast<Position*>(memory.data());
+  const auto add = [&](const Position& p) { *position++ = {viewport_.ndc(p.x), viewport_.ndc(p.y)}; };
   if (scene.clip) {
-    for (std::size_t t = first; t < first + count; ++t)
+    auto* vertex = reinterpret_cast<ClipPosition*>(memory.data());
+    for (std::size_t t = first; t < first + count; ++t) {
       vertex = std::ranges::copy(scene.clip->triangles[t], vertex).out;
+    }
   } else if (scene.assembly) {
     std::ranges::for_each(scene.assembly->vertices, add);
     std::ranges::copy(scene.assembly->indices,

@@ -40,7 +40,7 @@ class MisbehavingDriver final : public Driver {
   std::size_t max_mask_bytes() const override { return 4096; }
   tl::expected<double, Error> draw(const Setting& setting, const Primitives& primitives,
                                    std::span<std::uint32_t> masks) override {
-    const auto first_x = [&](std::size_t triangle) { return primitives.vertices[3 * triangle].x * kMaxCoordinate; };
+    const auto first_x = [&](std::size_t triangle) { return primitives.vertex(3 * triangle).x * kMaxCoordinate; };
     const float what = first_x(0);
     if (what == 900) {
       std::fputs("the driver's own complaint\nin two lines\n", stderr);
