@@ -256,7 +256,30 @@ class EdgecaseSubject : public Subject {
   std::optional<Fast> fast_;
 };
 
+std::string_view instructions_of(rasterizer::Isa isa) {
+  switch (isa) {
+    case rasterizer::Isa::portable:
+      return "scalar code";
+    case rasterizer::Isa::sse4:
+      return "SSE4.2";
+    case rasterizer::Isa::avx2:
+      return "AVX2, FMA and BMI2";
+    case rasterizer::Isa::avx3:
+      return "AVX-512";
+  }
+  return {};
+}
+
 }  // namespace
+
+std::vector<InstructionSetVariant> instruction_set_variants() {
+  std::vector<InstructionSetVariant> variants;
+  for (const rasterizer::Isa isa : rasterizer::kAllIsas) {
+    const bool available = std::ranges::count(rasterizer::available_isas(), isa) != 0;
+    variants.push_back({rasterizer::name_of(isa), instructions_of(isa), available});
+  }
+  return variants;
+}
 
 std::unique_ptr<Subject> make_edgecase_subject(const std::string& variant) {
   using rasterizer::FastRasterizer;

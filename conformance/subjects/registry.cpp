@@ -34,6 +34,11 @@ tl::unexpected<Error> unknown(const std::string& name) {
                                                       : "\"edgecase list subjects\" names those there are")});
 }
 
+tl::unexpected<Error> unavailable(const std::string& name, const InstructionSetVariant& set) {
+  return tl::unexpected(
+      Error{ErrorKind::absent, fmt::format("{}: this machine, or this build, has no {}", name, set.instructions)});
+}
+
 }  // namespace
 
 std::vector<SubjectName> subject_names() {
@@ -49,6 +54,11 @@ std::vector<SubjectName> subject_names() {
   for (const FamilySubjectName& member : family_subjects()) {
     if (member.name == "scalar") continue;  // is there already, for every number of subpixel bits
     names.push_back({fmt::format("{}{}", kEdgecaseFamily, member.name), std::string(member.about)});
+  }
+  for (const InstructionSetVariant& variant : instruction_set_variants()) {
+    names.push_back({fmt::format("{}{}", kEdgecaseFamily, variant.name),
+                     fmt::format("our own rasterizer in {}{}", variant.instructions,
+                                 variant.available ? "" : ", which this machine does not have")});
   }
   for (const InexactInfo& inexact : inexact_subjects()) {
     names.push_back(
@@ -67,7 +77,11 @@ tl::expected<std::unique_ptr<Subject>, Error> make_subject(const std::string& na
   if (name == kEdgecase) {
     subject = make_edgecase_subject("");
   } else if (name.starts_with(kEdgecaseFamily) && name != kEdgecaseFamily) {
-    subject = make_edgecase_subject(rest_of(kEdgecaseFamily));
+    const std::string variant = rest_of(kEdgecaseFamily);
+    for (const InstructionSetVariant& set : instruction_set_variants()) {
+      if (variant == set.name && !set.available) return unavailable(name, set);
+    }
+    subject = make_edgecase_subject(variant);
   } else if (name.starts_with(kFaultFamily)) {
     subject = make_fault_subject(rest_of(kFaultFamily));
   } else if (name.starts_with(kInexactFamily)) {

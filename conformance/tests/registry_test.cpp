@@ -1,4 +1,5 @@
 #include "conformance/subjects/registry.h"
+#include "conformance/subjects/edgecase_subject.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include <cmath>
 
 #include "conformance/scene/standard_samples.h"
+#include "conformance/subjects/edgecase_subject.h"
 
 namespace edgecase::conformance {
 namespace {
@@ -48,13 +50,29 @@ TEST(Registry, EveryListedSubjectIsMadeUnderItsName) {
     EXPECT_FALSE(subject.about.empty());
     if (subject.name == "vulkan:DEVICE-OR-ICD") continue;
     const auto made = make_subject(subject.name);
-    if (subject.name == "swiftshader" && !made && made.error().kind == ErrorKind::absent) continue;  // optional
+    const bool optional = subject.name == "swiftshader" || subject.about.ends_with("does not have");
+    if (optional && !made && made.error().kind == ErrorKind::absent) continue;
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ((*made)->info().name, subject.name);
     names.push_back(subject.name);
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"edgecase", "lavapipe", "osmesa-llvmpipe", "osmesa-softpipe"}));
   EXPECT_GE(names.size(), 10U) << "and the faults";
+}
+
+TEST(Registry, MakesTheInstructionSetsOfThisMachineAndSaysOfOthersThatItHasThemNot) {
+  const auto variants = instruction_set_variants();
+  ASSERT_EQ(variants.size(), 4U);
+  EXPECT_TRUE(variants.front().available);
+  for (const InstructionSetVariant& variant : variants) {
+    const std::string name = "edgecase:" + std::string(variant.name);
+    const auto made = make_subject(name);
+    ASSERT_EQ(made.has_value(), variant.available) << name;
+    if (made) continue;
+    EXPECT_EQ(made.error().kind, ErrorKind::absent);
+    EXPECT_EQ(made.error().message,
+              name + ": this machine, or this build, has no " + std::string(variant.instructions));
+  }
 }
 
 class SmallSubject final : public Subject {

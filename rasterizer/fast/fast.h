@@ -14,6 +14,7 @@
 // below. The code for one sample in the centre of the whole target knows of nothing else.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,7 @@ namespace edgecase::rasterizer {
 /// Instruction sets, from the least to the best: scalar code for any processor, SSE4.2, AVX2 with FMA and BMI2, and
 /// AVX-512 (F, BW, DQ, VL, CD).
 enum class Isa { portable, sse4, avx2, avx3 };
+inline constexpr std::array kAllIsas{Isa::portable, Isa::sse4, Isa::avx2, Isa::avx3};
 
 std::string_view name_of(Isa isa);
 
