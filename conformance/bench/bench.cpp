@@ -41,6 +41,17 @@ tl::expected<std::vector<const Workload*>, Error> chosen_workloads(const BenchOp
   return chosen;
 }
 
+tl::expected<std::vector<std::string_view>, Error> chosen_scaling_workloads(const BenchOptions& options) {
+  const std::vector<std::string_view> known = scaling_workloads();
+  if (options.workloads.empty()) return known;
+  std::vector<std::string_view> chosen;
+  for (const std::string& name : options.workloads) {
+    if (std::ranges::find(known, name) == known.end()) return unknown("workload", name, known);
+    if (std::ranges::find(chosen, name) == chosen.end()) chosen.push_back(name);
+  }
+  return chosen;
+}
+
 tl::expected<std::vector<std::unique_ptr<Contender>>, Error> chosen_contenders(const BenchOptions& options) {
   auto built_in = built_in_contenders();
   if (options.subjects.empty()) return built_in;
@@ -117,9 +128,11 @@ tl::expected<std::string, Error> prepare_folder(const std::filesystem::path& fol
 }
 
 tl::expected<void, Error> run_scaling(const BenchOptions& options) {
+  const auto chosen = chosen_scaling_workloads(options);
+  if (!chosen) return tl::unexpected(chosen.error());
   const auto json = prepare_folder(options.scaling, "scaling.json");
   if (!json) return tl::unexpected(json.error());
-  const auto points = measure_scaling(options.quick ? kQuickScaling : kThoroughScaling, options.seed);
+  const auto points = measure_scaling(*chosen, options.quick ? kQuickScaling : kThoroughScaling, options.seed);
   if (!points) return tl::unexpected(points.error());
   fmt::print("{}", scaling_table(*points));
   if (auto written = write_file(*json, scaling_json(*points)); !written) return written;

@@ -17,6 +17,8 @@
 namespace edgecase::conformance {
 namespace {
 
+constexpr std::string_view kWide = "wide200";
+
 using FixedTriangle = rasterizer::FixedTriangle<rasterizer::Format16_8>;
 using rasterizer::Plan;
 using rasterizer::StripMask;
@@ -173,21 +175,29 @@ Schedule play(const TaskCosts& costs, const Plan& plan, double (*start)(int thre
   return schedule;
 }
 
-tl::expected<std::vector<ScalingPoint>, Error> measure_scaling(const ScalingEffort& effort, std::uint64_t seed) {
-  constexpr std::size_t kWide = 200'000;
-  const Progress progress(workloads().size() + 1, "workloads");
+std::vector<std::string_view> scaling_workloads() {
+  std::vector<std::string_view> names;
+  for (const Workload& workload : workloads()) names.push_back(workload.name);
+  names.push_back(kWide);
+  return names;
+}
+
+tl::expected<std::vector<ScalingPoint>, Error> measure_scaling(std::span<const std::string_view> names,
+                                                               const ScalingEffort& effort, std::uint64_t seed) {
+  constexpr std::size_t kWideTriangles = 200'000;
+  const Progress progress(names.size(), "workloads");
   std::vector<ScalingPoint> points;
-  std::size_t done = 0;
-  const auto measure_one = [&](std::string_view name, const Scene& scene) {
-    progress.show(done++, name);
-    return measure_workload(name, scene, effort.repetitions, points);
-  };
-  for (const Workload& workload : workloads()) {
-    const Scene scene = make_workload(workload, std::max<std::size_t>(workload.triangles / effort.divisor, 4), seed);
-    if (auto measured = measure_one(workload.name, scene); !measured) return tl::unexpected(measured.error());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    progress.show(i, names[i]);
+    const Workload* workload = find_workload(names[i]);
+    const Scene scene =
+        workload != nullptr
+            ? make_workload(*workload, std::max<std::size_t>(workload->triangles / effort.divisor, 4), seed)
+            : make_even({16'384, 16'384}, kWideTriangles / effort.divisor, 200, seed);
+    if (auto measured = measure_workload(names[i], scene, effort.repetitions, points); !measured) {
+      return tl::unexpected(measured.error());
+    }
   }
-  const Scene wide = make_even({16'384, 16'384}, kWide / effort.divisor, 200, seed);
-  if (auto measured = measure_one("wide200", wide); !measured) return tl::unexpected(measured.error());
   return points;
 }
 

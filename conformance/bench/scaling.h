@@ -7,8 +7,8 @@
 // What the model leaves out:
 //   - cache lines that move between processors: a helper's mask is added up by all threads, so half of its lines, and
 //     as many of the target's, are in another one's cache. For a screen's mask of 4,200 lines, two threads took 4 to 8
-//     us to add it up, and the helper 10 us longer to draw into it again. It weighs on draws of a few hundred us; a mask
-//     shared by many threads moves more of it. `line` says how far apart the processors are;
+//     us to add it up, and the helper 10 us longer to draw into it again. It weighs on draws of a few hundred us; a
+//     mask shared by many threads moves more of it. `line` says how far apart the processors are;
 //   - bandwidth that processors share, of the last-level cache and the memory: who draws into a large target alone may
 //     already use most of it;
 //   - clocks that fall as more processors work, and neighbours on the same machine: what `apart` shows;
@@ -20,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -68,9 +69,12 @@ struct ScalingEffort {
 inline constexpr ScalingEffort kQuickScaling{2, 100};
 inline constexpr ScalingEffort kThoroughScaling{9, 1};
 
-/// Workload by workload, for 1, 2, 4 ... 64 threads. The last workload, wide200, is 200,000 triangles of 200 px on
-/// 16384x16384 pixels.
-tl::expected<std::vector<ScalingPoint>, Error> measure_scaling(const ScalingEffort& effort, std::uint64_t seed);
+/// The names of workloads(), and wide200: 200,000 triangles of 200 px on 16384x16384 pixels.
+std::vector<std::string_view> scaling_workloads();
+
+/// Each of these workloads for 1, 2, 4 ... 64 threads.
+tl::expected<std::vector<ScalingPoint>, Error> measure_scaling(std::span<const std::string_view> names,
+                                                               const ScalingEffort& effort, std::uint64_t seed);
 
 /// {"points": [...]}, an object per point with the fields' names as keys, indented.
 std::string scaling_json(std::span<const ScalingPoint> points);

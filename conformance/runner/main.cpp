@@ -145,11 +145,11 @@ void add_bench(CLI::App& app, BenchOptions& options) {
       ->excludes("--json")
       ->excludes("--plot");
   bench
-      ->add_option("--scaling", options.scaling,
-                   "Instead, model and measure the speed of 1 to 64 threads, into this folder")
+      ->add_option(
+          "--scaling", options.scaling,
+          "Instead, model and measure the speed of 1 to 64 threads, into this folder; wide200 is one more workload")
       ->type_name("DIR")
       ->excludes("--growth")
-      ->excludes("--workload")
       ->excludes("--subject")
       ->excludes("--json")
       ->excludes("--plot");
