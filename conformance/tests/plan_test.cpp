@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <numeric>
 #include <random>
+#include <string>
+
+#include "rasterizer/threads/waking.h"
 
 namespace edgecase::rasterizer {
 namespace {
@@ -57,9 +61,37 @@ TEST(Plan, AsMuchWorkAsItTakesToWakeAThreadIsShared) {
   // The last parts of few triangles are single ones, or they would keep the other threads waiting.
   EXPECT_EQ(make_plan(first(100), screen, 2).chunk, 1u);
   // What pays if the other thread is there need not pay if it must be woken.
-  EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::awake).threads, 2);
-  EXPECT_EQ(make_plan(first(35), screen, 2, Helpers::asleep).threads, 1);
-  EXPECT_EQ(make_plan(first(100), screen, 2, Helpers::asleep).threads, 2);
+  EXPECT_EQ(make_plan(first(35), screen, 2).threads, 2);
+  EXPECT_FALSE(pays_to_wake(make_plan(first(35), screen, 2)));
+  EXPECT_TRUE(pays_to_wake(make_plan(first(100), screen, 2)));
+}
+
+// A draw that saves half of what waking costs, ten of them soon after each other, and ten with pauses.
+TEST(Waking, WaitsForDrawsThatFollowEachOther) {
+  using std::chrono::microseconds;
+  const Target screen = *Target::make(1920, 1080);
+  Plan plan = make_plan({}, screen, 2, 1, 1);
+  plan.estimate = 1e6;
+  plan.alone = plan.estimate + delay_by_waking(2) / 2;
+  ASSERT_FALSE(pays_to_wake(plan));
+  const auto draws = [&](microseconds pause) {
+    Waking waking;
+    Waking::Time now{std::chrono::hours(1)};
+    std::string shared;
+    for (int i = 0; i < 12; ++i) {
+      const bool shares = waking.shares(plan, now);
+      now += microseconds(1000);
+      waking.end(shares, now);
+      now += pause;
+      shared += shares ? '2' : '1';
+    }
+    return shared;
+  };
+  EXPECT_EQ(draws(microseconds(99)), "111111112222");
+  EXPECT_EQ(draws(microseconds(101)), "111111111111");
+  plan.alone = 2 * (plan.estimate + delay_by_waking(2));
+  ASSERT_TRUE(pays_to_wake(plan));
+  EXPECT_EQ(draws(microseconds(101)), "222222222222");
 }
 
 TEST(Plan, AFewLargeTrianglesAmongSmallOnesAreSeen) {

@@ -26,6 +26,7 @@ rasterizer::Plan plan_for(const TaskCosts& costs, int threads, double least_help
           rasterizer::Parts::even(costs.parts.front().size(), costs.parts.front().size()),
           work,
           0,
+          0,
           least_help};
 }
 

@@ -29,7 +29,7 @@ struct Drawing {
   FastRasterizer fast;
   StripMask mask{target};
   TiledDraw::Memory memory;
-  Plan plan{TileGrid(target, 2, 2), 2, 2, Parts::even(3, 3), std::vector<double>(4, 1), 0, 0};
+  Plan plan{TileGrid(target, 2, 2), 2, 2, Parts::even(3, 3), std::vector<double>(4, 1), 0, 0, 0};
 };
 
 TEST(TiledDraw, PartsMayBeDrawnInAnyOrder) {
@@ -70,6 +70,7 @@ TEST(TiledDraw, AnyThreadsCanDoTheWork) {
                       side == 1 ? Parts::falling(32, 4, std::array{2.0, 1.0}) : Parts::even(32, 11),
                       std::vector<double>(static_cast<std::size_t>(side * side), 1),
                       0,
+                      0,
                       0};
       std::vector<TiledDraw::Canvas> canvases;
       for (std::size_t i = 0; i < 4; ++i) canvases.emplace_back(i);
@@ -87,7 +88,7 @@ TEST(TiledDraw, ASingleTileIsDrawnInPlaceAndNobodyWaitsForWhoHasNotBegun) {
   Drawing d;
   StripMask expected(d.target);
   d.fast.cover_union(d.triangles, expected);
-  const Plan plan{TileGrid(d.target, 1, 1), 2, 1, Parts::even(5, 5), {5}, 0, 2.5};
+  const Plan plan{TileGrid(d.target, 1, 1), 2, 1, Parts::even(5, 5), {5}, 0, 0, 2.5};
   TiledDraw::Canvas own(0), other(1);
   {
     TiledDraw draw(d.fast, d.triangles, plan, d.mask, d.memory);

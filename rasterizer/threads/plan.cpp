@@ -31,8 +31,9 @@ constexpr double kLeastWork = 25'000, kLeastToShare = 2 * kLeastWork;
 
 /// What a cache line of a mask costs if the mask, of so many bytes, is drawn into anywhere.
 double miss(double bytes) { return bytes <= (1 << 20) ? 0 : bytes <= (16 << 20) ? 4 : 20; }
-/// Of moving a word of a mask of a target of so many bytes to it.
-double move_word(double bytes) { return bytes <= (1 << 20) ? 0.1 : 0.3; }
+/// Of adding a word of a mask to a target, in the time of all threads: its cache line comes from another processor, or
+/// from memory, and so do the target's, and the mask's when its thread draws into it again.
+constexpr double kMoveWord = 0.35;
 
 /// A triangle's pixels on the target.
 struct Sample {
@@ -115,11 +116,10 @@ double words_of(const Tile& tile) {
 Estimate estimate(const Samples& samples, std::size_t triangles, const TileGrid& grid, int threads) {
   const Tile tile = grid.tile(0);
   const double tiles = grid.count(), tile_words = words_of(tile);
-  const double target_bytes = tiles * tile_words * 4;
   const double miss_tile = miss(tile_words * 4);
   // One thread draws into the target if that is one tile; else every tile has a mask. The others have one more each.
   const double moved = (tiles > 1 ? tiles + threads - 1 : threads - 1) * tile_words;
-  Estimate sum{moved * move_word(target_bytes), 0, tiles * tile_words * move_word(target_bytes)};
+  Estimate sum{moved * kMoveWord, 0, tiles * tile_words * kMoveWord};
   if (tiles > 1) sum.total += static_cast<double>(triangles) * (kBin + kBinBound * (grid.columns() + grid.rows()));
   const double per_height = 1.0 / tile.height, per_width = 1.0 / tile.width;
   double drawing = 0, rest = 0;
@@ -178,12 +178,16 @@ std::vector<double> tile_work(const Samples& samples, const TileGrid& grid) {
   return work;
 }
 
-/// When `threads` threads are done, if `total` is shared out evenly.
-double finish_time(double total, int threads, Helpers helpers) {
-  for (int thread = 0; thread < threads; ++thread) {
-    total += helpers == Helpers::awake ? start_awake(thread) : start_asleep(thread);
-  }
+/// When `threads` threads are done that wait for work, if `total` is shared out evenly.
+double finish_time(double total, int threads) {
+  for (int thread = 0; thread < threads; ++thread) total += start_awake(thread);
   return total / threads;
+}
+
+/// What is estimated to be saved must be more than what estimates are off by.
+bool is_less(double estimate, double than) {
+  constexpr double kMargin = 1.15;
+  return estimate * kMargin < than;
 }
 
 /// Triangles of a single tile's chunk, the least part of it: the last ones that two threads draw keep one of them
@@ -206,7 +210,7 @@ Parts parts_of_whole(const Samples& samples, std::size_t chunks, std::size_t thr
 }
 
 Plan finish_plan(const Samples& samples, std::size_t triangles, const TileGrid& grid, int threads,
-                 const Estimate& estimate, Helpers helpers) {
+                 const Estimate& estimate, double alone) {
   // In bins, so many chunks that a bin holds more than a few triangles, and parts so small that a thread that helps
   // with the last tile is kept waiting for 1/64 of its time on average.
   constexpr std::size_t kPartsPerThread = 32, kChunksPerThread = 8;
@@ -227,8 +231,9 @@ Plan finish_plan(const Samples& samples, std::size_t triangles, const TileGrid& 
           tiles == 1 ? parts_of_whole(samples, chunks, all)
                      : Parts::even(chunks, std::clamp<std::size_t>(all * kPartsPerThread / tiles, 1, chunks)),
           tiles == 1 ? std::vector{estimate.drawing} : tile_work(samples, grid),
-          finish_time(estimate.total, threads, helpers),
-          2 * move_word(static_cast<double>(tiles) * tile_words * 4) * tile_words};
+          finish_time(estimate.total, threads),
+          alone,
+          2 * kMoveWord * tile_words};
 }
 
 }  // namespace
@@ -236,11 +241,19 @@ Plan finish_plan(const Samples& samples, std::size_t triangles, const TileGrid& 
 double start_awake(int thread) { return kStartThread * thread; }
 double start_asleep(int thread) { return thread == 0 ? kWake : kAsleep + kStartThread * (thread - 1); }
 
+double delay_by_waking(int threads) {
+  double sum = 0;
+  for (int thread = 0; thread < threads; ++thread) sum += start_asleep(thread) - start_awake(thread);
+  return sum / threads;
+}
+
+bool pays_to_wake(const Plan& plan) { return is_less(plan.estimate + delay_by_waking(plan.threads), plan.alone); }
+
 Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads, int columns, int rows) {
   const Samples samples = sample(triangles, target, Samples::kMost);
   const TileGrid grid(target, columns, rows);
   return finish_plan(samples, triangles.size(), grid, threads, estimate(samples, triangles.size(), grid, threads),
-                     Helpers::awake);
+                     one_thread_time(samples, target));
 }
 
 bool may_pay(std::span<const Triangle> triangles, const Target& target) {
@@ -253,19 +266,17 @@ bool may_pay(std::span<const Triangle> triangles, const Target& target) {
          2 * one_thread_time(sample(triangles, target, 16), target) >= kLeastToShare;
 }
 
-Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads, Helpers helpers) {
+Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads) {
   const Samples samples = sample(triangles, target, Samples::kMost);
   const double one_thread = one_thread_time(samples, target);
   const TileGrid whole(target, 1, 1);
-  const Plan alone{whole,      1, std::max<std::size_t>(triangles.size(), 1), Parts::even(1, 1), {one_thread},
-                   one_thread, 0};
+  const Plan alone{
+      whole, 1, std::max<std::size_t>(triangles.size(), 1), Parts::even(1, 1), {one_thread}, one_thread, one_thread, 0};
   threads = static_cast<int>(std::min(static_cast<double>(threads), one_thread / kLeastWork));
   if (threads <= 1 || !may_pay(triangles, target)) return alone;
   const auto [grid, sum] = best_grid(samples, triangles.size(), target, threads);
-  Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum, helpers);
-  // What is estimated to be saved must be more than what estimates are off by.
-  constexpr double kMargin = 1.15;
-  return plan.estimate * kMargin < one_thread ? plan : alone;
+  Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum, one_thread);
+  return is_less(plan.estimate, one_thread) ? plan : alone;
 }
 
 }  // namespace edgecase::rasterizer

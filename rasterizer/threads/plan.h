@@ -31,17 +31,20 @@ struct Plan {
   Parts parts;
   /// Estimated ns of drawing each tile.
   std::vector<double> tile_work;
-  /// Estimated ns of the whole on these threads.
+  /// Estimated ns of the whole on these threads, none of which sleeps, and on one.
   double estimate;
+  double alone;
   /// ns that must be left of a tile for another thread to join: twice what its mask costs to clear and to add.
   double least_help;
 };
 
 /// ns from the call until thread `thread` of several works, 0 being the caller's own: as measured on two processors,
-/// assumed for more. First where threads are still waiting for work, as they do for 0.1 to 0.2 ms after a draw; then
-/// where they sleep, and the caller has to wake them.
+/// assumed for more. First where threads are still waiting for work, as they do for 0.1 to 0.2 ms after a draw that
+/// they had a part in; then where they sleep, and the caller has to wake them.
 double start_awake(int thread);
 double start_asleep(int thread);
+/// ns by which a draw by so many threads ends later if they sleep.
+double delay_by_waking(int threads);
 
 /// The plan with `columns` by `rows` tiles for exactly `threads` threads.
 Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads, int columns,
@@ -50,11 +53,11 @@ Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Targe
 /// Whether more than one thread may save time, as far as can be told at little cost beside that of drawing the list.
 bool may_pay(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target);
 
-/// Whether the other threads wait for work, or must be woken first.
-enum class Helpers { awake, asleep };
+/// The plan that is estimated to be done first with up to `threads` threads, none of which sleeps: one thread's, where
+/// more save too little.
+Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads);
 
-/// The plan that is estimated to be done first with up to `threads` threads: one thread's, where more save too little.
-Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads,
-               Helpers helpers = Helpers::awake);
+/// Whether threads that sleep are worth waking for a plan of several, by themselves.
+bool pays_to_wake(const Plan& plan);
 
 }  // namespace edgecase::rasterizer

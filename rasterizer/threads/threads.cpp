@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rasterizer/threads/tiled_draw.h"
+#include "rasterizer/threads/waking.h"
 
 namespace edgecase::rasterizer {
 
@@ -22,7 +23,7 @@ struct ThreadedRasterizer::State {
   tbb::task_arena arena;
   std::vector<TiledDraw::Canvas> canvases;
   TiledDraw::Memory memory;
-  std::chrono::steady_clock::time_point last_end{};  ///< of a draw that may have been worth sharing
+  Waking waking;
 };
 
 ThreadedRasterizer::ThreadedRasterizer(const FastRasterizer& fast, int threads) {
@@ -36,12 +37,16 @@ ThreadedRasterizer& ThreadedRasterizer::operator=(ThreadedRasterizer&&) noexcept
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask) {
   const int threads = state_->arena.max_concurrency();
   if (threads == 1 || !may_pay(triangles, mask.target())) return state_->fast.cover_union(triangles, mask);
-  // After another draw the helpers still wait for work; or if that was for one thread only, waking them now pays on the
-  // draws that are likely to follow as fast.
+  const Plan plan = make_plan(triangles, mask.target(), threads);
+  if (plan.threads == 1) return state_->fast.cover_union(triangles, mask);
   using Clock = std::chrono::steady_clock;
-  const bool soon = Clock::now() - state_->last_end < std::chrono::microseconds(100);
-  cover_union(triangles, mask, make_plan(triangles, mask.target(), threads, soon ? Helpers::awake : Helpers::asleep));
-  state_->last_end = Clock::now();
+  const bool shared = state_->waking.shares(plan, Clock::now());
+  if (shared) {
+    cover_union(triangles, mask, plan);
+  } else {
+    state_->fast.cover_union(triangles, mask);
+  }
+  state_->waking.end(shared, Clock::now());
 }
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask,
