@@ -40,7 +40,7 @@ TEST(Plan, ALittleWorkIsForOneThread) {
   EXPECT_EQ(make_plan({}, screen, 8).threads, 1);
   for (const std::size_t count : {1u, 10u, 100u}) {
     const auto small = triangles(screen, count, 10, 1920);
-    EXPECT_FALSE(may_pay(small, screen)) << count;
+    EXPECT_FALSE(may_pay(small, screen, 2)) << count;
     EXPECT_EQ(make_plan(small, screen, 8).threads, 1) << count;
   }
   EXPECT_EQ(make_plan(triangles(screen, 100'000, 10, 1920), screen, 8).threads, 8);
@@ -50,13 +50,24 @@ TEST(Plan, ALittleWorkIsForOneThread) {
   EXPECT_EQ(make_plan(triangles(large, 10'000, 10, 16'384), large, 2).threads, 1);
 }
 
+// What two threads would save of drawing them, moving the target's words costs them; 64 threads save more.
+TEST(Plan, OnALargeTargetMoreWorkIsNeeded) {
+  const Target large = *Target::make(16'384, 16'384);
+  const auto list = triangles(large, 100'000, 200, 16'384);
+  const auto first = [&](std::size_t count) { return std::span(list).first(count); };
+  EXPECT_FALSE(may_pay(first(2'000), large, 2));
+  EXPECT_TRUE(may_pay(first(2'000), large, 64));
+  EXPECT_TRUE(may_pay(list, large, 2));
+  EXPECT_GT(make_plan(list, large, 2).threads, 1);
+}
+
 TEST(Plan, AsMuchWorkAsItTakesToWakeAThreadIsShared) {
   const Target screen = *Target::make(1920, 1080);
   const std::vector<Fixed> whole(100, triangle({{{0, 0}, {1920, 0}, {0, 1080}}}));
   const auto first = [&](std::size_t count) { return std::span(whole).first(count); };
-  EXPECT_FALSE(may_pay(first(10), screen));
+  EXPECT_FALSE(may_pay(first(10), screen, 2));
   EXPECT_EQ(make_plan(first(10), screen, 2).threads, 1);
-  EXPECT_TRUE(may_pay(first(100), screen));
+  EXPECT_TRUE(may_pay(first(100), screen, 2));
   EXPECT_EQ(make_plan(first(100), screen, 2).threads, 2);
   // The last parts of few triangles are single ones, or they would keep the other threads waiting.
   EXPECT_EQ(make_plan(first(100), screen, 2).chunk, 1u);

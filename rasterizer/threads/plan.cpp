@@ -185,9 +185,14 @@ double finish_time(double total, int threads) {
 }
 
 /// What is estimated to be saved must be more than what estimates are off by.
-bool is_less(double estimate, double than) {
-  constexpr double kMargin = 1.15;
-  return estimate * kMargin < than;
+constexpr double kMargin = 1.15;
+bool is_less(double estimate, double than) { return estimate * kMargin < than; }
+
+/// What one thread must take at least for several to save time, each of the target's words being moved at least once:
+/// (work + moved) / threads is less than the work.
+double least_to_share(const Target& target, int threads) {
+  const double moved = kMoveWord * bytes_of(target) / 4;
+  return std::max(kLeastToShare, kMargin * moved / (threads - kMargin));
 }
 
 /// Triangles of a single tile's chunk, the least part of it: the last ones that two threads draw keep one of them
@@ -256,14 +261,15 @@ Plan make_plan(std::span<const Triangle> triangles, const Target& target, int th
                      one_thread_time(samples, target));
 }
 
-bool may_pay(std::span<const Triangle> triangles, const Target& target) {
+bool may_pay(std::span<const Triangle> triangles, const Target& target, int threads) {
   // What is drawn in a us must not be planned for another one: only as many triangles are looked at as it takes.
-  const double count = static_cast<double>(triangles.size());
-  if (count * most_work(target) < kLeastToShare) return false;
+  if (threads <= 1) return false;
+  const double count = static_cast<double>(triangles.size()), least = least_to_share(target, threads);
+  if (count * most_work(target) < least) return false;
   // Those looked at may be the smallest ones, the sooner the fewer they are.
   const std::size_t few = std::clamp<std::size_t>(triangles.size() / 32, 1, 4);
-  return 4 * one_thread_time(sample(triangles, target, few), target) >= kLeastToShare &&
-         2 * one_thread_time(sample(triangles, target, 16), target) >= kLeastToShare;
+  return 4 * one_thread_time(sample(triangles, target, few), target) >= least &&
+         2 * one_thread_time(sample(triangles, target, 16), target) >= least;
 }
 
 Plan make_plan(std::span<const Triangle> triangles, const Target& target, int threads) {
@@ -273,7 +279,7 @@ Plan make_plan(std::span<const Triangle> triangles, const Target& target, int th
   const Plan alone{
       whole, 1, std::max<std::size_t>(triangles.size(), 1), Parts::even(1, 1), {one_thread}, one_thread, one_thread, 0};
   threads = static_cast<int>(std::min(static_cast<double>(threads), one_thread / kLeastWork));
-  if (threads <= 1 || !may_pay(triangles, target)) return alone;
+  if (!may_pay(triangles, target, threads)) return alone;
   const auto [grid, sum] = best_grid(samples, triangles.size(), target, threads);
   Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum, one_thread);
   return is_less(plan.estimate, one_thread) ? plan : alone;

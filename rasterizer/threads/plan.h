@@ -50,8 +50,8 @@ double delay_by_waking(int threads);
 Plan make_plan(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads, int columns,
                int rows);
 
-/// Whether more than one thread may save time, as far as can be told at little cost beside that of drawing the list.
-bool may_pay(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target);
+/// Whether `threads` threads may save time, as far as can be told at little cost beside that of drawing the list.
+bool may_pay(std::span<const FixedTriangle<Format16_8>> triangles, const Target& target, int threads);
 
 /// The plan that is estimated to be done first with up to `threads` threads, none of which sleeps: one thread's, where
 /// more save too little.

@@ -36,7 +36,7 @@ ThreadedRasterizer& ThreadedRasterizer::operator=(ThreadedRasterizer&&) noexcept
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask) {
   const int threads = state_->arena.max_concurrency();
-  if (threads == 1 || !may_pay(triangles, mask.target())) return state_->fast.cover_union(triangles, mask);
+  if (!may_pay(triangles, mask.target(), threads)) return state_->fast.cover_union(triangles, mask);
   const Plan plan = make_plan(triangles, mask.target(), threads);
   if (plan.threads == 1) return state_->fast.cover_union(triangles, mask);
   using Clock = std::chrono::steady_clock;
