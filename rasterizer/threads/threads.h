@@ -8,9 +8,9 @@
 //
 // Tiles are drawn in the order of falling work; towards the end, threads without a tile help with one that has much
 // left (agenda.h). What limits many threads:
-//   - before they start, one to three us for the plan; and if they sleep, 8 us for the call that wakes them and 25 to 40 until
-//     they are there (waking.h says when that is done). oneTBB lets them wait for a draw for 0.1 to 0.2 ms, within
-//     which they begin after one us;
+//   - before they start, one to three us for the plan; and if they sleep, 8 us for the call that wakes them and 25 to
+//     40 until they are there (waking.h says when that is done). oneTBB lets them wait for a draw for 0.1 to 0.2 ms,
+//     within which they begin after one us;
 //   - whenever a thread takes a part of a tile that others draw, too, a cache line: so parts are few, and of falling
 //     size (parts.h). Of the last one half is lost on average: it is 1/128 to 1/64 of a thread's share of a single
 //     tile, and 1/32 of several;
