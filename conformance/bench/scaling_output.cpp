@@ -84,16 +84,20 @@ std::string scaling_plot_program(std::span<const ScalingPoint> points, const std
   constexpr std::array kColours{"#000000", "#D55E00", "#009E73", "#E69F00", "#0072B2", "#CC79A7", "#56B4E9", "#999999"};
   constexpr std::array kSymbols{5, 9, 11, 13, 7, 2, 3, 1};
   const auto names = workloads_of(points);
+  double most = 64;
+  for (const ScalingPoint& point : points) {
+    most = std::max({most, point.predicted_speedup, point.measured ? point.measured->awake : 0});
+  }
   std::string text = fmt::format(
       "set terminal pngcairo size 900,760 noenhanced font 'sans,12'\nset output {}\nset title {} font ',15'\n"
-      "set logscale xy 2\nset grid xtics ytics lc rgb '#dddddd'\nset xrange [0.9:71]\nset yrange [0.9:71]\n"
-      "set xtics (1,2,4,8,16,32,64)\nset ytics (1,2,4,8,16,32,64)\n"
+      "set logscale xy 2\nset grid xtics ytics lc rgb '#dddddd'\nset xrange [0.9:71]\nset yrange [0.9:{:.3g}]\n"
+      "set xtics (1,2,4,8,16,32,64)\nset ytics (1,2,4,8,16,32,64,128,256)\n"
       "set lmargin at screen 0.09\nset rmargin at screen 0.97\nset tmargin at screen 0.94\n"
       "set bmargin at screen 0.33\nset key at screen 0.02,0.14 left top reverse Left vertical maxrows 3\n"
       "set xlabel 'threads'\nset ylabel 'times as fast as one thread'\n"
       "set label \"{}\" at screen 0.02,0.235 left font ',11'\nplot x with lines lw 1 dt 3 lc rgb '#666666' title "
       "'ideal'",
-      gnuplot_quoted(path), gnuplot_quoted("Speed over threads, 1920x1080 (wide200: 16384x16384)"), kAbout);
+      gnuplot_quoted(path), gnuplot_quoted("Speed over threads, 1920x1080 (wide200: 16384x16384)"), 1.1 * most, kAbout);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const char* const colour = kColours[i % kColours.size()];
     text += fmt::format(", '-' using 1:2 with linespoints lw 1.5 pt {} ps 1.2 lc rgb '{}' title {}",

@@ -78,6 +78,11 @@ TEST(Scaling, TheCommandWritesATableAndAPicture) {
   EXPECT_THAT(table, testing::AllOf(HasSubstr("large20k"), HasSubstr("wide200")));
   EXPECT_TRUE(std::filesystem::exists(folder / "scaling.json"));
   EXPECT_GT(std::filesystem::file_size(folder / "scaling.png"), 10'000u);
+  options.workloads = {"smal10"};
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(bench_command(options), 2);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("no workload \"smal10\"; did you mean \"small10\"?"));
+  options.workloads = {"wide200"};
   options.scaling = "/proc/scaling";
   testing::internal::CaptureStderr();
   EXPECT_EQ(bench_command(options), 2);
@@ -94,6 +99,14 @@ TEST(Scaling, OutputNamesWhatIsKnown) {
   EXPECT_THAT(scaling_table(points),
               testing::AllOf(HasSubstr("3.33x"), HasSubstr("-10 %"), HasSubstr("1.95x"), HasSubstr("120 ns")));
   EXPECT_THAT(scaling_plot_program(points, "a.png"), testing::AllOf(HasSubstr("4 3.33\n"), HasSubstr("2 1.5\n")));
+}
+
+// Tiles that fit into a cache beat the number of threads.
+TEST(Scaling, PlotReachesUpToTheHighestPoint) {
+  ScalingPoint point{"wide200", 200'000, 64, 64, 16, 16, 521, 100'000, 110'000, 1'000, 100, 90};
+  EXPECT_THAT(scaling_plot_program(std::span(&point, 1), "a.png"), HasSubstr("set yrange [0.9:110]\n"));
+  point.predicted_speedup = 2;
+  EXPECT_THAT(scaling_plot_program(std::span(&point, 1), "a.png"), HasSubstr("set yrange [0.9:70.4]\n"));
 }
 
 }  // namespace
