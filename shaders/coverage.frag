@@ -1,6 +1,6 @@
 // Notes the samples that a fragment covers in the mask of its triangle. The words are those of conformance/scene/mask.h,
-// every 64-bit word seen as two 32-bit words, the less significant first, or short rows of one 32-bit word. The sample count is a power of two and at most
-// 16, so that the samples of one pixel lie in one 32-bit word.
+// every 64-bit word seen as two 32-bit words, the less significant first, or short rows of one 32-bit word. The sample
+// count is a power of two and at most 16, so that the samples of one pixel lie in one 32-bit word.
 // No #version line: the build (Vulkan) or the program (OpenGL) puts one in front.
 
 #ifdef VULKAN

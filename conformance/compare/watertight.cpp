@@ -95,7 +95,8 @@ void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const Sampl
   const Int x1 = place(lower.x, location.x);
   const Int y1 = place(lower.y, location.y);
   const Int width = layout_.target.width;
-  const Int first_row = std::max(Int{0}, (y0 + unit - 1) >> scale_bits_);
+  const auto first_sample = [&](Int v) { return std::max(Int{0}, (v + unit - 1) >> scale_bits_); };
+  const Int first_row = first_sample(y0);
   const Int last_row = std::min(Int{layout_.target.height} - 1, y1 >> scale_bits_);
   const std::size_t row_words = layout_.row_words();
   const std::uint64_t* pattern = sample_words_.data() + sample * row_words;
@@ -106,7 +107,7 @@ void WatertightChecker::scan_edge(const OutlineEdge& edge, int turn, const Sampl
   };
 
   if (y0 == y1) {
-    const Int begin = std::max(Int{0}, (std::min(x0, x1) + unit - 1) >> scale_bits_);
+    const Int begin = first_sample(std::min(x0, x1));
     const Int end = std::min(width, (std::max(x0, x1) >> scale_bits_) + 1);
     if (first_row <= last_row && begin < end) mark_outline(first_row, begin, end);
     return;

@@ -59,6 +59,13 @@ TEST(Reference, GivesTheOraclesTheirShareOfWhatAgrees) {
     EXPECT_EQ(share, (scene.triangles.size() + 1 + kOracleShare - 1) / kOracleShare - 1);
     ASSERT_EQ(reference.expects(scene, 1, MaskBatchView(masks)), true);
     EXPECT_EQ(reference.confirmed(), 2 * share);
+    // As a driver has them.
+    ASSERT_TRUE(MaskLayout(scene.setting).has_short_rows());
+    std::vector<std::uint32_t> rows(masks.data().begin(), masks.data().end());
+    ASSERT_EQ(reference.expects(scene, 1, DrawnMasks(MaskLayout(scene.setting), rows)), true);
+    EXPECT_EQ(reference.confirmed(), 3 * share);
+    rows[rows.size() - 7] ^= 4;
+    ASSERT_EQ(reference.expects(scene, 1, DrawnMasks(MaskLayout(scene.setting), rows)), false);
     masks[scene.triangles.size() - 1][3] ^= 4;
     ASSERT_EQ(reference.expects(scene, 1, MaskBatchView(masks)), false);
   }

@@ -40,7 +40,7 @@ TEST(Plan, ALittleWorkIsForOneThread) {
   EXPECT_EQ(make_plan({}, screen, 8).threads, 1);
   for (const std::size_t count : {1u, 10u, 100u}) {
     const auto small = triangles(screen, count, 10, 1920);
-    EXPECT_FALSE(may_pay(small, screen, 2)) << count;
+    EXPECT_FALSE(may_pay(small, screen, 8)) << count;
     EXPECT_EQ(make_plan(small, screen, 8).threads, 1) << count;
   }
   EXPECT_EQ(make_plan(triangles(screen, 100'000, 10, 1920), screen, 8).threads, 8);
@@ -77,7 +77,7 @@ TEST(Plan, AsMuchWorkAsItTakesToWakeAThreadIsShared) {
   EXPECT_TRUE(pays_to_wake(make_plan(first(100), screen, 2)));
 }
 
-// A draw that saves half of what waking costs, ten of them soon after each other, and ten with pauses.
+// Draws that each save half of what waking costs, soon after each other and with pauses; and draws that save more.
 TEST(Waking, WaitsForDrawsThatFollowEachOther) {
   using std::chrono::microseconds;
   const Target screen = *Target::make(1920, 1080);
