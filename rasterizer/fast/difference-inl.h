@@ -18,19 +18,27 @@
 HWY_BEFORE_NAMESPACE();
 namespace edgecase::rasterizer::HWY_NAMESPACE {
 
-/// Whether `rows` are what strip_to_rows() would write. Clears the strip.
-HWY_INLINE bool take_equal_strip(const Strips& strip, std::uint64_t pixels, const std::uint64_t* rows) {
-  const hn::CappedTag<std::uint64_t, kMaxLanes / 2> d;
+/// Whether `rows`, a word each of 32 or 64 bits, are the strip's rows, as far as these are `pixels`. Clears the strip.
+template <class Word>
+HWY_INLINE bool take_equal_strip(const Strips& strip, Word pixels, const Word* rows) {
+  const hn::CappedTag<Word, kMaxLanes * sizeof(std::uint32_t) / sizeof(Word)> d;
   const hn::Rebind<std::uint32_t, decltype(d)> d_strip;
+  const auto load = [&](const std::uint32_t* words) HWY_ATTR {
+    if constexpr (sizeof(Word) == sizeof(std::uint32_t)) {
+      return hn::LoadU(d, words);
+    } else {
+      return hn::PromoteTo(d, hn::LoadU(d_strip, words));
+    }
+  };
   const int lanes = static_cast<int>(hn::Lanes(d));
   auto differing = hn::Zero(d);
   int y = 0;
   for (; y + lanes <= strip.height; y += lanes) {
-    const auto drawn = hn::And(hn::PromoteTo(d, hn::LoadU(d_strip, strip.words + y)), hn::Set(d, pixels));
+    const auto drawn = hn::And(load(strip.words + y), hn::Set(d, pixels));
     differing = hn::Or(differing, hn::Xor(drawn, hn::LoadU(d, rows + y)));
     hn::StoreU(hn::Zero(d_strip), d_strip, strip.words + y);
   }
-  std::uint64_t rest = 0;
+  Word rest = 0;
   for (; y < strip.height; ++y) {
     rest |= (strip.words[y] & pixels) ^ rows[y];
     strip.words[y] = 0;
@@ -54,24 +62,6 @@ HWY_INLINE bool take_equal(const Strips& strips, std::uint64_t last_word, const 
   }
   std::memset(strips.words, 0, static_cast<std::size_t>(strips.count) * strips.stride * sizeof(std::uint32_t));
   return differing == 0;
-}
-
-/// Whether `rows`, of 32 bits, are those of the only strip, as far as they are pixels. Clears the strip.
-HWY_INLINE bool take_equal_short(const Strips& strip, std::uint32_t pixels, const std::uint32_t* rows) {
-  const auto d = DU32();
-  auto differing = hn::Zero(d);
-  int y = 0;
-  for (; y + kLaneRows <= strip.height; y += kLaneRows) {
-    const U32 drawn = hn::And(hn::LoadU(d, strip.words + y), hn::Set(d, pixels));
-    differing = hn::Or(differing, hn::Xor(drawn, hn::LoadU(d, rows + y)));
-    hn::StoreU(hn::Zero(d), d, strip.words + y);
-  }
-  std::uint32_t rest = 0;
-  for (; y < strip.height; ++y) {
-    rest |= (strip.words[y] & pixels) ^ rows[y];
-    strip.words[y] = 0;
-  }
-  return rest == 0 && hn::AllTrue(d, hn::Eq(differing, hn::Zero(d)));
 }
 
 /// The first triangle for which take_equal(strips, i) is false, the strips being those that it was drawn into;
@@ -105,7 +95,7 @@ inline std::size_t first_short_difference(std::span<const SnappedTriangle> trian
   const std::uint32_t pixels = ~std::uint32_t{0} >> (kStripWidth - width);
   const auto height = static_cast<std::size_t>(scratch.strips.height);
   return first_taken_unequal(triangles, width, scratch, [&](const Strips& strips, std::size_t i) HWY_ATTR {
-    return take_equal_short(strips, pixels, rows + i * height);
+    return take_equal_strip(strips, pixels, rows + i * height);
   });
 }
 
