@@ -50,6 +50,9 @@ TaskCosts time_tasks(const rasterizer::FastRasterizer& fast, std::span<const Fix
     for (std::size_t chunk = 0; chunk < costs.bins.size(); ++chunk) {
       time_into(costs.bins[chunk], [&] { drawing.bin(chunk); });
     }
+    // Threads clear what they have last drawn into when the draw is over.
+    tile_mask.clear();
+    canvas.clear();
     for (std::size_t t = 0; t < tiles; ++t) {
       const int tile = static_cast<int>(t);
       time_into(clear[t], [&] { tile_mask.begin(plan.grid.tile(tile)); });

@@ -160,7 +160,7 @@ TEST(TileMask, ATileIsItsPartOfTheTarget) {
         for (int t = 0; t < grid.count(); ++t) {
           tile_mask.begin(grid.tile(t));
           fast.cover_tile(triangles, tile_mask);
-          fast.move_strips(tile_mask, observed, 0, static_cast<std::size_t>(tile_mask.strips().count));
+          fast.add_strips(tile_mask, observed, 0, static_cast<std::size_t>(tile_mask.strips().count));
         }
         std::vector<std::uint64_t> expected_rows(target.mask_words()), observed_rows(target.mask_words());
         expected.to_rows(expected_rows);

@@ -189,14 +189,14 @@ void FastRasterizer::cover_tile(Triangles triangles, TileMask& mask) const {
   kernels_->cover_tile(triangles, mask.tile(), mask.strips());
 }
 
-void FastRasterizer::move_strips(TileMask& from, StripMask& to, std::size_t begin, std::size_t end) const {
+void FastRasterizer::add_strips(const TileMask& from, StripMask& to, std::size_t begin, std::size_t end) const {
   const Tile& tile = from.tile();
-  const Strips tile_strips = from.strips(), strips = to.strips();
+  const Strips strips = to.strips();
   const auto first_strip = static_cast<std::size_t>(tile.left / kStripWidth);
   for (std::size_t strip = begin; strip < end; ++strip) {
-    kernels_->move_words(tile_strips.words + strip * tile_strips.stride,
-                         strips.words + (first_strip + strip) * strips.stride + static_cast<std::size_t>(tile.top),
-                         static_cast<std::size_t>(tile.height));
+    kernels_->add_words(from.strip(strip),
+                        strips.words + (first_strip + strip) * strips.stride + static_cast<std::size_t>(tile.top),
+                        static_cast<std::size_t>(tile.height));
   }
 }
 

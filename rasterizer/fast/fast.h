@@ -94,8 +94,8 @@ class FastRasterizer {
   /// Adds the coverage of every triangle, as far as it lies in mask.tile(), to `mask`.
   void cover_tile(Triangles triangles, TileMask& mask) const;
 
-  /// Adds strips `begin` to before `end` of the tile that `from` is of to the target's mask, and clears them.
-  void move_strips(TileMask& from, StripMask& to, std::size_t begin, std::size_t end) const;
+  /// Adds strips `begin` to before `end` of the tile that `from` is of to the target's mask.
+  void add_strips(const TileMask& from, StripMask& to, std::size_t begin, std::size_t end) const;
 
   /// Which columns and rows of tiles the bounding boxes of triangles reach with a sample: for every kReachBlock
   /// triangles grid.columns() + grid.rows() words, the columns' first, in which bit i is set if triangle i reaches that

@@ -109,7 +109,7 @@ inline void cover_each_in(std::span<const SnappedTriangle> triangles, const Regi
 inline constexpr FastRasterizer::Kernels kKernels{
     &snap_on_grid,           &cover_union, &cover_union_in, &cover_each,  &cover_each_in,  &first_difference,
     &first_short_difference, &count_each,  &count_each_in,  &cover_first, &cover_first_in, &strips_to_rows,
-    &region_to_rows,         &cover_tile,  &find_reach,     &move_words};
+    &region_to_rows,         &cover_tile,  &find_reach,     &add_words};
 
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

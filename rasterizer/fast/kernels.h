@@ -54,8 +54,8 @@ struct FastRasterizer::Kernels {
   /// The strips are a TileMask's.
   void (*cover_tile)(Triangles, const Tile&, const Strips&);
   void (*find_reach)(Triangles, const TileGrid&, std::uint64_t* words);
-  /// Adds words to others, and clears them.
-  void (*move_words)(std::uint32_t* from, std::uint32_t* to, std::size_t words);
+  /// Adds words to others.
+  void (*add_words)(const std::uint32_t* from, std::uint32_t* to, std::size_t words);
 };
 
 }  // namespace edgecase::rasterizer

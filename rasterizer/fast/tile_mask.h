@@ -5,6 +5,7 @@
 // either.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,26 +23,40 @@ static_assert(kMarginRows % TileGrid::kRowUnit == 0 && kMarginRows <= kRowsBelow
 
 class TileMask {
  public:
-  /// From here on the mask is that of `tile`, all clear. All strips of the tile before it, if there was one, must have
-  /// been moved to a target's mask.
+  /// From here on the mask is that of `tile`, all clear.
   void begin(const Tile& tile) {
     const int count = (tile.width + kStripWidth - 1) / kStripWidth;
-    // Of a tile as large as the one before it that one has left clear strips, and margins of no use.
-    const bool alike = count == count_ && tile.height == tile_.height;
+    if (count == count_ && tile.height == tile_.height) {
+      clear();
+    } else {
+      count_ = count;
+      // The rows above a strip are those below the one before it.
+      const auto rows = static_cast<std::size_t>(tile.height + kRowsBelow);
+      stride_ = (rows + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+      const std::size_t words = first_word() + static_cast<std::size_t>(count_ + kMarginStrips) * stride_;
+      blocks_.assign(words / kMaxLanes, Block{});
+    }
     tile_ = tile;
-    if (alike) return;
-    count_ = count;
-    // The rows above a strip are those below the one before it.
-    const auto rows = static_cast<std::size_t>(tile.height + kRowsBelow);
-    stride_ = (rows + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
-    const std::size_t words = first_word() + static_cast<std::size_t>(count_ + kMarginStrips) * stride_;
-    blocks_.assign(words / kMaxLanes, Block{});
+    clear_ = false;
+  }
+
+  /// Clears its strips, unless they are. A tile as large as the last one will find nothing else to clear: what the
+  /// margins hold is of no use.
+  void clear() {
+    if (clear_) return;
+    std::fill_n(blocks_.begin() + static_cast<std::ptrdiff_t>(first_word() / kMaxLanes),
+                static_cast<std::size_t>(count_) * stride_ / kMaxLanes, Block{});
+    clear_ = true;
   }
 
   const Tile& tile() const { return tile_; }
 
   /// Strip 0 and row 0 are the tile's first.
   Strips strips() { return {blocks_.data()->words + first_word(), stride_, count_, tile_.height}; }
+
+  const std::uint32_t* strip(std::size_t number) const {
+    return blocks_.data()->words + first_word() + number * stride_;
+  }
 
  private:
   std::size_t first_word() const { return kMarginRows + kMarginStrips * stride_; }
@@ -51,6 +66,7 @@ class TileMask {
   };
   Tile tile_{};
   int count_ = 0;
+  bool clear_ = true;
   std::size_t stride_ = 0;
   std::vector<Block> blocks_;
 };

@@ -49,15 +49,11 @@ inline void cover_tile(std::span<const SnappedTriangle> triangles, const Tile& t
   draw_list(triangles, TilePlane{tile}, tile.width, 0, strips);
 }
 
-inline void move_words(std::uint32_t* from, std::uint32_t* to, std::size_t words) {
+inline void add_words(const std::uint32_t* from, std::uint32_t* to, std::size_t words) {
   const auto d = DU32();
   std::size_t i = 0;
-  for (; i + kLanes <= words; i += kLanes) {
-    const U32 moved = hn::LoadU(d, from + i);
-    hn::StoreU(hn::Or(hn::LoadU(d, to + i), moved), d, to + i);
-    hn::StoreU(hn::Zero(d), d, from + i);
-  }
-  for (; i < words; ++i) to[i] |= std::exchange(from[i], 0);
+  for (; i + kLanes <= words; i += kLanes) hn::StoreU(hn::Or(hn::LoadU(d, to + i), hn::LoadU(d, from + i)), d, to + i);
+  for (; i < words; ++i) to[i] |= from[i];
 }
 
 // Reach.

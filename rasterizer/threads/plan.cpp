@@ -279,7 +279,7 @@ Plan make_plan(std::span<const Triangle> triangles, const Target& target, int th
   const Plan alone{
       whole, 1, std::max<std::size_t>(triangles.size(), 1), Parts::even(1, 1), {one_thread}, one_thread, one_thread, 0};
   threads = static_cast<int>(std::min(static_cast<double>(threads), one_thread / kLeastWork));
-  if (!may_pay(triangles, target, threads)) return alone;
+  if (threads <= 1 || one_thread < least_to_share(target, threads)) return alone;
   const auto [grid, sum] = best_grid(samples, triangles.size(), target, threads);
   Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum, one_thread);
   return is_less(plan.estimate, one_thread) ? plan : alone;

@@ -1,27 +1,30 @@
 #include "rasterizer/threads/threads.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
-
 #include <cassert>
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
+#include "rasterizer/threads/crew.h"
 #include "rasterizer/threads/tiled_draw.h"
 #include "rasterizer/threads/waking.h"
 
 namespace edgecase::rasterizer {
 
 struct ThreadedRasterizer::State {
-  State(const FastRasterizer& rasterizer, int threads) : fast(rasterizer), arena(threads) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(threads); ++i) canvases.emplace_back(i);
+  using Canvases = std::vector<TiledDraw::Canvas>;
+
+  State(const FastRasterizer& rasterizer, int threads)
+      : fast(rasterizer),
+        canvases(std::make_shared<Canvases>()),
+        crew(threads, [canvases = canvases](std::size_t place) { (*canvases)[place].clear(); }) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(threads); ++i) canvases->emplace_back(i);
   }
 
   FastRasterizer fast;
-  tbb::task_arena arena;
-  std::vector<TiledDraw::Canvas> canvases;
+  std::shared_ptr<Canvases> canvases;  ///< one for each place of the crew
+  Crew crew;
   TiledDraw::Memory memory;
   Waking waking;
 };
@@ -35,7 +38,7 @@ ThreadedRasterizer::ThreadedRasterizer(ThreadedRasterizer&&) noexcept = default;
 ThreadedRasterizer& ThreadedRasterizer::operator=(ThreadedRasterizer&&) noexcept = default;
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask) {
-  const int threads = state_->arena.max_concurrency();
+  const int threads = state_->crew.threads();
   if (!may_pay(triangles, mask.target(), threads)) return state_->fast.cover_union(triangles, mask);
   const Plan plan = make_plan(triangles, mask.target(), threads);
   if (plan.threads == 1) return state_->fast.cover_union(triangles, mask);
@@ -51,14 +54,11 @@ void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> 
 
 void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask,
                                      const Plan& plan) {
-  assert(plan.threads <= static_cast<int>(state_->canvases.size()));
+  assert(plan.threads <= state_->crew.threads());
   if (plan.threads <= 1) return state_->fast.cover_union(triangles, mask);
   TiledDraw drawing(state_->fast, triangles, plan, mask, state_->memory);
-  const auto work = [&](std::size_t worker) { drawing.work(state_->canvases[worker]); };
-  // The caller begins with worker 0, the canvas in place, and takes over what no other thread has come for.
-  state_->arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(plan.threads), work, tbb::simple_partitioner());
-  });
+  // The caller has place 0, whose canvas is in place.
+  state_->crew.run(plan.threads, [&](std::size_t place) { drawing.work((*state_->canvases)[place]); });
 }
 
 }  // namespace edgecase::rasterizer

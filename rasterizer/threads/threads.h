@@ -14,6 +14,8 @@
 //   - whenever a thread takes a part of a tile that others draw, too, a cache line: so parts are few, and of falling
 //     size (parts.h). Of the last one half is lost on average: it is 1/128 to 1/64 of a thread's share of a single
 //     tile, and 1/32 of several;
+//   - in the end, adding the helpers' masks, of which each thread does its share; clearing them is left to each helper
+//     when the draw is over (crew.h);
 //   - in total, the triangles on tiles' borders, which are drawn twice, and a mask for each tile and each helper.
 // `edgecase bench --scaling` plays these tasks, with the times they take on one thread, through the agenda for up to
 // 64 threads; conformance/bench/scaling.h says what it leaves out.

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <thread>
 #include <utility>
+
+#include "rasterizer/threads/wait.h"
 
 namespace edgecase::rasterizer {
 namespace {
@@ -110,7 +111,7 @@ void TiledDraw::draw_whole(std::span<const Triangle> triangles, Canvas& canvas) 
 void TiledDraw::draw_bin(int tile, std::size_t chunk, Canvas& canvas) const {
   const Bins& bins = *memory_.bins[chunk];
   // Who has taken the chunk is binning it at this moment.
-  while (!bins.done.load(std::memory_order_acquire)) std::this_thread::yield();
+  wait_until([&] { return bins.done.load(std::memory_order_acquire); });
   const std::uint32_t* const begin = bins.begin.data() + tile;
   const auto triangles = std::span(std::as_const(bins.triangles)).subspan(begin[0], begin[1] - begin[0]);
   if (triangles.empty()) return;
@@ -145,7 +146,7 @@ void TiledDraw::draw_waiting(Canvas& canvas) const {
 
 void TiledDraw::add_canvases() {
   // Who has taken a part is drawing it at this moment: nobody waits for a thread that has not begun.
-  while (drawn_.load(std::memory_order_acquire) < plan_.parts.count()) std::this_thread::yield();
+  wait_until([&] { return drawn_.load(std::memory_order_acquire) == plan_.parts.count(); });
   const std::size_t count = apart_count_.load(std::memory_order_relaxed);
   if (count == 0) return;
   const auto strips = static_cast<std::size_t>(mask_.strips().count);
@@ -154,7 +155,7 @@ void TiledDraw::add_canvases() {
   for (std::size_t first = next_to_add_.fetch_add(group, std::memory_order_relaxed); first < strips;
        first = next_to_add_.fetch_add(group, std::memory_order_relaxed)) {
     for (std::size_t i = 0; i < count; ++i) {
-      fast_.move_strips(apart_[i]->mask_, mask_, first, std::min(first + group, strips));
+      fast_.add_strips(apart_[i]->mask_, mask_, first, std::min(first + group, strips));
     }
   }
 }
@@ -175,7 +176,7 @@ void TiledDraw::finish(Canvas& canvas) {
     const std::size_t group = (i + canvas.number_) % groups;
     auto& lock = memory_.locks[(static_cast<std::size_t>(canvas.tile_) * groups + group) % memory_.locks.size()];
     const tbb::spin_mutex::scoped_lock locked(lock.mutex);
-    fast_.move_strips(canvas.mask_, mask_, group * kStripsAtOnce, std::min((group + 1) * kStripsAtOnce, strips));
+    fast_.add_strips(canvas.mask_, mask_, group * kStripsAtOnce, std::min((group + 1) * kStripsAtOnce, strips));
   }
   canvas.tile_ = -1;
 }
