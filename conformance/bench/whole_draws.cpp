@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <barrier>
+#include <chrono>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -15,6 +16,9 @@ namespace edgecase::conformance {
 namespace {
 
 using Triangles = std::span<const rasterizer::FixedTriangle<rasterizer::Format16_8>>;
+
+/// Longer than threads wait for work.
+constexpr std::chrono::duration<double, std::nano> kUntilAsleep{500'000};
 
 double median(std::vector<double> values) { return statistics(std::move(values)).median; }
 
@@ -87,37 +91,48 @@ WholeDraws time_whole_draws(int threads, const rasterizer::FastRasterizer& fast,
                             const rasterizer::Target& target, std::size_t repetitions) {
   rasterizer::ThreadedRasterizer threaded(fast, threads);
   rasterizer::StripMask mask(target);
-  struct Times {
-    std::vector<double> wall, cpu;
-  };
-  const auto time_draw = [&](Times& times, const auto& draw) {
+  const auto time_draw = [&](std::vector<double>& times, const auto& draw) {
     mask.clear();
-    double wall = 0;
-    times.cpu.push_back(time_of([&] { wall = time_of(draw); }, CLOCK_PROCESS_CPUTIME_ID));
-    times.wall.push_back(wall);
+    times.push_back(time_of(draw));
+  };
+  // What follows is one of a stream of such draws: caches and clocks have settled after another kind, or a pause.
+  const auto follow = [&](const auto& draw) {
+    for (int i = 0; i < 2; ++i) mask.clear(), draw();
   };
   const auto draw_alone = [&] { fast.cover_union(triangles, mask); };
   const auto draw_threaded = [&] { threaded.cover_union(triangles, mask); };
   draw_alone();
   const double about = time_of(draw_alone);
   const auto more = static_cast<std::size_t>(std::clamp(5e6 / about, 1.0, 20.0));
-  Times one, awake, asleep;
-  std::vector<double> apart, line;  // of the latter the least, as what else runs can only delay it
+  std::vector<double> one, awake, asleep, apart, line;
   for (std::size_t i = 0; i < repetitions * more; ++i) {
-    // Longer than threads wait for work, while this one's processor stays awake.
-    wait_awake(500'000);
+    // This one's processor stays awake.
+    wait_awake(kUntilAsleep.count());
     time_draw(asleep, draw_threaded);
+    follow(draw_threaded);
     time_draw(awake, draw_threaded);
-    draw_alone();  // so that the next one, too, follows one of its kind
+    follow(draw_alone);
     time_draw(one, draw_alone);
   }
+  // A thread's time is known to some ms while it works: so of many draws, before and after which helpers sleep.
+  const auto cpu_of = [&](const auto& draw) {
+    const auto count = static_cast<std::size_t>(5e6 / about + 1) * repetitions;
+    std::this_thread::sleep_for(kUntilAsleep);
+    return time_of(
+        [&] {
+          for (std::size_t i = 0; i < count; ++i) mask.clear(), draw();
+          std::this_thread::sleep_for(kUntilAsleep);
+        },
+        CLOCK_PROCESS_CPUTIME_ID);
+  };
   for (std::size_t i = 0; i < std::min<std::size_t>(repetitions, 5); ++i) {
     const double alone = time_together(1, fast, triangles, target, 2 * more);
     apart.push_back(threads * alone / time_together(threads, fast, triangles, target, 2 * more));
     line.push_back(time_line());
   }
-  const double wall = median(one.wall);
-  return {wall / median(awake.wall), wall / median(asleep.wall), median(awake.cpu) / median(one.cpu), median(apart),
+  const double wall = median(one);
+  // Of the line the least: what else runs can only delay it.
+  return {wall / median(awake), wall / median(asleep), cpu_of(draw_threaded) / cpu_of(draw_alone), median(apart),
           *std::ranges::min_element(line)};
 }
 

@@ -10,7 +10,7 @@ namespace edgecase::conformance {
 
 /// Speed-ups, each as a ratio of medians, and what they depend on.
 struct WholeDraws {
-  double awake;   ///< right after another such draw, when threads still wait for work
+  double awake;   ///< one of a stream of such draws, when threads still wait for work
   double asleep;  ///< half a ms later, when they sleep
   double cpu;     ///< CPU time of all threads, in that of one thread's draw
   /// How many times as much is drawn if every thread draws the whole list, into a mask of its own: what threads that
