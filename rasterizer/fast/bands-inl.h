@@ -1,5 +1,5 @@
-// Bands: 16 or 32 rows of a triangle, crossed by one left and one right edge; the strips between these are filled
-// without being read.
+// Bands: 32 rows of a triangle, crossed by one left and one right edge; the strips between these are filled without
+// being read.
 //
 // Within a band the rows are in lanes of 32 bits, 21 of them fraction bits, counted from the left side of the band's
 // first strip: 0 <= count < 2^11. Dropping 23 fraction bits of t and of row * slope takes away less than 2^-20, so this
@@ -27,39 +27,38 @@ inline constexpr int kMostBandExtent = (1 << (32 - kLaneFractionBits)) - 2 * kSt
 inline constexpr std::int64_t kMostBandHeight = 2000 * 256;
 static_assert(1 / (2.0 * kMostBandHeight) > 0x1p-20 + 0x1p-29);
 
+/// Bands of 16 rows would draw less beside flat edges. But how many strips a band has, the processor has to guess, and
+/// what it guesses wrongly costs as much as drawing several: fewer bands are faster, however flat the edges.
+inline constexpr int kBandRows = 32;
+inline constexpr int kBandVectors = kBandRows / kLaneRows;
+static_assert(kBandVectors * kLaneRows == kBandRows && kBandRows <= kRowsBelow);
+
 /// A number for each row of a band.
-template <int Rows, class Numbers = U32>
+template <class Numbers = U32>
 struct BandRows {
-  static constexpr int kVectors = Rows / kLaneRows;
-  static_assert(kVectors * kLaneRows == Rows && Rows <= kRowsBelow);
-  Numbers vectors[kVectors];
+  Numbers vectors[kBandVectors];
 };
 
 /// The same as narrow counts.
-template <int Rows>
-HWY_INLINE decltype(auto) narrow(const BandRows<Rows>& counts) {
-  using Narrow = BandRows<Rows, NarrowCounts>;
-  if constexpr (std::is_same_v<Narrow, BandRows<Rows>>) {
+HWY_INLINE decltype(auto) narrow(const BandRows<>& counts) {
+  if constexpr (std::is_same_v<NarrowCounts, U32>) {
     return (counts);
   } else {
-    Narrow narrowed;
-    for (int i = 0; i < Narrow::kVectors; ++i) narrowed.vectors[i] = narrow(counts.vectors[i]);
+    BandRows<NarrowCounts> narrowed;
+    for (int i = 0; i < kBandVectors; ++i) narrowed.vectors[i] = narrow(counts.vectors[i]);
     return narrowed;
   }
 }
 
-/// An edge's crossings in bands of `Rows` rows.
-template <int Rows>
+/// An edge's crossings in bands.
 class BandEdge {
  public:
-  using Counts = BandRows<Rows>;
-
-  explicit BandEdge(const Crossings& c) : t_(c.t), slope_(c.slope), drift_(c.slope, Rows) {
+  explicit BandEdge(const Crossings& c) : t_(c.t), slope_(c.slope), drift_(c.slope, kBandRows) {
     const auto d = DI32();
     const auto whole = static_cast<std::int32_t>(slope_ >> kDroppedBits);
     const auto rest = static_cast<std::int32_t>(slope_ & ((std::int64_t{1} << kDroppedBits) - 1));
-    static_assert((std::int64_t{Rows} << kDroppedBits) <= (std::int64_t{1} << 31));
-    for (int i = 0; i < Counts::kVectors; ++i) {
+    static_assert((std::int64_t{kBandRows} << kDroppedBits) <= (std::int64_t{1} << 31));
+    for (int i = 0; i < kBandVectors; ++i) {
       const I32 row = hn::Iota(d, i * kLaneRows);
       const I32 rests = hn::ShiftRight<kDroppedBits>(hn::Mul(row, hn::Set(d, rest)));
       steps_.vectors[i] = hn::BitCast(DU32(), hn::Add(hn::Mul(row, hn::Set(d, whole)), rests));
@@ -70,14 +69,14 @@ class BandEdge {
   std::int64_t rightmost() const { return t_ + drift_.right; }
   std::int64_t leftmost(int rows) const { return t_ + Drift(slope_, rows).left; }
   std::int64_t rightmost(int rows) const { return t_ + Drift(slope_, rows).right; }
-  void skip_band() { t_ += Rows * slope_; }
+  void skip_band() { t_ += kBandRows * slope_; }
 
   /// The counts of a band's rows, from strip `first` on.
-  HWY_INLINE Counts counts(int first) const {
+  HWY_INLINE BandRows<> counts(int first) const {
     const std::int64_t from = t_ - (std::int64_t{first} << (kFractionBits + kStripBits));
     const U32 start = hn::Set(DU32(), static_cast<std::uint32_t>(from >> kDroppedBits));
-    Counts counts;
-    for (int i = 0; i < Counts::kVectors; ++i) {
+    BandRows<> counts;
+    for (int i = 0; i < kBandVectors; ++i) {
       counts.vectors[i] = hn::ShiftRight<kLaneFractionBits>(hn::Add(start, steps_.vectors[i]));
     }
     return counts;
@@ -87,7 +86,7 @@ class BandEdge {
   std::int64_t t_;
   std::int64_t slope_;
   Drift drift_;
-  Counts steps_;
+  BandRows<> steps_;
 };
 
 /// Up to that many strips of a band are not asked whether they hold an edge.
@@ -99,25 +98,22 @@ inline int last_strip_before(std::int64_t t) { return strip_of(t - (std::int64_t
 
 /// Adds what lies between both counts of a band's rows to the strip that begins `columns` right of where they are taken
 /// from.
-template <int Rows>
-HWY_INLINE void add_between(const BandRows<Rows>& left, const BandRows<Rows>& right, int columns, std::uint32_t* to) {
-  for (int i = 0; i < BandRows<Rows>::kVectors; ++i) {
+HWY_INLINE void add_between(const BandRows<>& left, const BandRows<>& right, int columns, std::uint32_t* to) {
+  for (int i = 0; i < kBandVectors; ++i) {
     add(wide_bits_between(left.vectors[i], right.vectors[i], columns), to + i * kLaneRows);
   }
 }
 
 /// The same for the first `count` strips, at most kStripsToAdd. Two are drawn without asking, in which thin and small
 /// triangles show in most bands, and the others two by two: one more than there are has nothing added to it.
-template <int Rows>
-HWY_INLINE void add_strips(const BandRows<Rows, NarrowCounts>& left, const BandRows<Rows, NarrowCounts>& right,
-                           int count, std::size_t stride, std::uint32_t* to) {
-  constexpr int kVectors = BandRows<Rows>::kVectors;
+HWY_INLINE void add_strips(const BandRows<NarrowCounts>& left, const BandRows<NarrowCounts>& right, int count,
+                           std::size_t stride, std::uint32_t* to) {
   const auto add_strip = [&](int columns, std::uint32_t* words) HWY_ATTR {
-    for (int i = 0; i < kVectors; ++i) {
+    for (int i = 0; i < kBandVectors; ++i) {
       add(bits_between(left.vectors[i], right.vectors[i], columns), words + i * kLaneRows);
     }
   };
-  for (int i = 0; i < kVectors; ++i) add(bits_between(left.vectors[i], right.vectors[i]), to + i * kLaneRows);
+  for (int i = 0; i < kBandVectors; ++i) add(bits_between(left.vectors[i], right.vectors[i]), to + i * kLaneRows);
   add_strip(kStripWidth, to + stride);
   for (int strip = 2; strip < count; strip += 2) {
     to += 2 * stride;
@@ -127,48 +123,51 @@ HWY_INLINE void add_strips(const BandRows<Rows, NarrowCounts>& left, const BandR
 }
 
 /// Draws rows begin <= row < end, crossed by both edges, inside the target.
-template <int Rows>
 HWY_INLINE void draw_bands(const Crossings& left_crossings, const Crossings& right_crossings, int begin, int end,
                            const Strips& strips) {
-  using Counts = BandRows<Rows>;
-  BandEdge<Rows> left(left_crossings), right(right_crossings);
+  BandEdge left(left_crossings), right(right_crossings);
   std::uint32_t* words = strips.words + begin;
-  const auto word = [&](int strip) { return words + static_cast<std::size_t>(strip) * strips.stride; };
+  // A copy, as vectors that are stored may alias anything.
+  const std::size_t stride = strips.stride;
+  const auto word = [&](int strip) { return words + static_cast<std::size_t>(strip) * stride; };
   int rows = end - begin;
-  for (; rows >= Rows; rows -= Rows, words += Rows, left.skip_band(), right.skip_band()) {
+  for (; rows >= kBandRows; rows -= kBandRows, words += kBandRows, left.skip_band(), right.skip_band()) {
     const int first = strip_of(left.leftmost());
     const int last = last_strip_before(right.rightmost());
     if (last < first) continue;
-    const Counts left_counts = left.counts(first), right_counts = right.counts(first);
+    const BandRows<> left_counts = left.counts(first), right_counts = right.counts(first);
     if (last < first + kStripsToAdd) {
-      add_strips<Rows>(narrow(left_counts), narrow(right_counts), last - first + 1, strips.stride, word(first));
+      add_strips(narrow(left_counts), narrow(right_counts), last - first + 1, stride, word(first));
       continue;
     }
     // Strips from `full` to `ending` hold no edge.
     const int full = strip_of(left.rightmost()) + 1;
     const int ending = strip_of(right.leftmost());
     int strip = first;
-    for (; strip < full; ++strip) add_between(left_counts, right_counts, (strip - first) * kStripWidth, word(strip));
-    for (; strip < ending; ++strip) {
-      for (int i = 0; i < Rows; i += kLaneRows) {
-        hn::StoreU(hn::Set(DU32(), ~std::uint32_t{0}), DU32(), word(strip) + i);
-      }
+    std::uint32_t* to = word(first);
+    for (; strip < full; ++strip, to += stride) {
+      add_between(left_counts, right_counts, (strip - first) * kStripWidth, to);
     }
-    for (; strip <= last; ++strip) add_between(left_counts, right_counts, (strip - first) * kStripWidth, word(strip));
+    for (; strip < ending; ++strip, to += stride) {
+      for (int i = 0; i < kBandRows; i += kLaneRows) hn::StoreU(hn::Set(DU32(), ~std::uint32_t{0}), DU32(), to + i);
+    }
+    for (; strip <= last; ++strip, to += stride) {
+      add_between(left_counts, right_counts, (strip - first) * kStripWidth, to);
+    }
   }
   if (rows == 0) return;
   const int first = strip_of(left.leftmost(rows));
   const int last = last_strip_before(right.rightmost(rows));
   if (last < first) return;
-  Counts left_counts = left.counts(first), right_counts = right.counts(first);
-  for (int i = 0; i < Counts::kVectors; ++i) {
+  BandRows<> left_counts = left.counts(first), right_counts = right.counts(first);
+  for (int i = 0; i < kBandVectors; ++i) {
     // Rows behind the last get both counts the same, hence nothing between them.
     const M32 live = hn::Lt(hn::Iota(DI32(), i * kLaneRows), hn::Set(DI32(), rows));
     left_counts.vectors[i] = keep(live, left_counts.vectors[i]);
     right_counts.vectors[i] = keep(live, right_counts.vectors[i]);
   }
   if (last < first + kStripsToAdd) {
-    return add_strips<Rows>(narrow(left_counts), narrow(right_counts), last - first + 1, strips.stride, word(first));
+    return add_strips(narrow(left_counts), narrow(right_counts), last - first + 1, stride, word(first));
   }
   for (int strip = first; strip <= last; ++strip) {
     add_between(left_counts, right_counts, (strip - first) * kStripWidth, word(strip));

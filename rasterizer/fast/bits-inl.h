@@ -62,7 +62,7 @@ HWY_INLINE U32 bits_from_wide(U32 counts) { return bits_from(narrow(hn::Min(coun
 #else
 
 using NarrowCounts = U32;
-inline constexpr int kNarrowColumns = 8 * kStripWidth;
+inline constexpr int kNarrowColumns = 16 * kStripWidth;
 HWY_INLINE NarrowCounts narrow(U32 counts) { return counts; }
 
 /// The bits from any count on: none for a count of 32 and above.

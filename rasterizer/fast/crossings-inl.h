@@ -52,12 +52,6 @@ struct Crossings {
   }
 };
 
-/// Whether the crossings of both move by less than a pixel from row to row.
-inline bool are_steep(const Crossings& a, const Crossings& b) {
-  constexpr std::int64_t kPixel = std::int64_t{1} << kFractionBits;
-  return std::max(a.slope, b.slope) < kPixel && std::min(a.slope, b.slope) > -kPixel;
-}
-
 /// How far the crossings of `rows` rows come from the first one, to the left and to the right.
 struct Drift {
   std::int64_t left;

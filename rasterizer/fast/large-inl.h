@@ -30,6 +30,7 @@ inline void draw_anywhere(Crossings left, Crossings right, int row, int end, con
   const auto d = DI32();
   const auto du = DU32();
   constexpr int kBand = static_cast<int>(kLanes);
+  const std::size_t stride = strips.stride;
   const auto clipped = [&](std::int64_t t) {
     return static_cast<int>(std::clamp<std::int64_t>(t >> (kFractionBits + kStripBits), 0, strips.count));
   };
@@ -46,7 +47,7 @@ inline void draw_anywhere(Crossings left, Crossings right, int row, int end, con
     const int full = clipped(left.t + left_drift.right + kAllButOne);
     const int ending = clipped(right.t + right_drift.left);
     const int stop = clipped(right.t + right_drift.right + kAllButOne);
-    std::uint32_t* to = strips.words + row + static_cast<std::size_t>(first) * strips.stride;
+    std::uint32_t* to = strips.words + row + static_cast<std::size_t>(first) * stride;
     const auto draw_edges = [&](int strip) HWY_ATTR {
       const I32 begin = hn::Set(d, strip * kStripWidth);
       const auto bits = [&](I32 counts) HWY_ATTR {
@@ -56,10 +57,10 @@ inline void draw_anywhere(Crossings left, Crossings right, int row, int end, con
     };
     int strip = first;
     if (ending - full > 1 && rows == kBand) {
-      for (; strip < full; ++strip, to += strips.stride) draw_edges(strip);
-      for (; strip < ending; ++strip, to += strips.stride) hn::StoreU(hn::Set(du, ~std::uint32_t{0}), du, to);
+      for (; strip < full; ++strip, to += stride) draw_edges(strip);
+      for (; strip < ending; ++strip, to += stride) hn::StoreU(hn::Set(du, ~std::uint32_t{0}), du, to);
     }
-    for (; strip < stop; ++strip, to += strips.stride) draw_edges(strip);
+    for (; strip < stop; ++strip, to += stride) draw_edges(strip);
     left.skip(kBand);
     right.skip(kBand);
   }
@@ -91,12 +92,10 @@ HWY_NOINLINE void draw_large(const FixedTriangle<ShiftedFormat>& triangle, int w
   const auto draw_rows = [&](const Crossings& longer, const Crossings& shorter, int begin, int end) {
     const Crossings& left = longer_is_left ? longer : shorter;
     const Crossings& right = longer_is_left ? shorter : longer;
-    if (!in_bands) {
-      draw_anywhere(left, right, begin, end, strips);
-    } else if (are_steep(left, right)) {
-      draw_bands<2 * kMaxLanes>(left, right, begin, end, strips);
+    if (in_bands) {
+      draw_bands(left, right, begin, end, strips);
     } else {
-      draw_bands<kMaxLanes>(left, right, begin, end, strips);
+      draw_anywhere(left, right, begin, end, strips);
     }
   };
   Crossings longer(v[0], v[2], top, bottom - top);

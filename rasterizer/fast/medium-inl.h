@@ -102,14 +102,14 @@ HWY_INLINE void draw_medium(const StoredSetup& s, std::size_t lane, const Strips
   const int strip_begin = std::max(first_strip, 0);
   const int strip_end = std::min((s.right[lane] + kStripWidth - 1) >> 5, strips.count);
   const RowCounts rows(s, lane);
+  const std::size_t stride = strips.stride;
   for (int first = begin; first < end; first += static_cast<int>(kLanes)) {
     I32 count0, count1;
     rows.at(first, hn::Set(DI32(), end), count0, count1);
     const NarrowCounts narrow0 = narrow(count0), narrow1 = narrow(count1);
-    std::uint32_t* to = strips.words + top + first;
-    for (int strip = strip_begin; strip < strip_end; ++strip) {
-      add(bits_between(narrow0, narrow1, (strip - first_strip) * kStripWidth),
-          to + static_cast<std::size_t>(strip) * strips.stride);
+    std::uint32_t* to = strips.words + top + first + static_cast<std::size_t>(strip_begin) * stride;
+    for (int strip = strip_begin; strip < strip_end; ++strip, to += stride) {
+      add(bits_between(narrow0, narrow1, (strip - first_strip) * kStripWidth), to);
     }
   }
 }
