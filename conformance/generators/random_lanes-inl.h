@@ -57,7 +57,8 @@ class RandomLanes {
 
   /// Items `first`, `first + 1` and so on.
   HWY_INLINE RandomLanes(const Family& family, std::uint64_t first)
-      : state_(hn::Xor(family.first_, hn::Iota(D64(), first))) {
+      // Iota(D64(), first) may write its lanes to memory one by one and wait for them.
+      : state_(hn::Xor(family.first_, hn::Add(hn::Iota(D64(), 0), all(first)))) {
     state_ = next();
   }
 

@@ -59,7 +59,7 @@ class BandEdge {
     const auto rest = static_cast<std::int32_t>(slope_ & ((std::int64_t{1} << kDroppedBits) - 1));
     static_assert((std::int64_t{kBandRows} << kDroppedBits) <= (std::int64_t{1} << 31));
     for (int i = 0; i < kBandVectors; ++i) {
-      const I32 row = hn::Iota(d, i * kLaneRows);
+      const I32 row = numbers_from(i * kLaneRows);
       const I32 rests = hn::ShiftRight<kDroppedBits>(hn::Mul(row, hn::Set(d, rest)));
       steps_.vectors[i] = hn::BitCast(DU32(), hn::Add(hn::Mul(row, hn::Set(d, whole)), rests));
     }
@@ -162,7 +162,7 @@ HWY_INLINE void draw_bands(const Crossings& left_crossings, const Crossings& rig
   BandRows<> left_counts = left.counts(first), right_counts = right.counts(first);
   for (int i = 0; i < kBandVectors; ++i) {
     // Rows behind the last get both counts the same, hence nothing between them.
-    const M32 live = hn::Lt(hn::Iota(DI32(), i * kLaneRows), hn::Set(DI32(), rows));
+    const M32 live = hn::Lt(numbers_from(i * kLaneRows), hn::Set(DI32(), rows));
     left_counts.vectors[i] = keep(live, left_counts.vectors[i]);
     right_counts.vectors[i] = keep(live, right_counts.vectors[i]);
   }

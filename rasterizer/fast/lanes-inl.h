@@ -40,6 +40,10 @@ inline constexpr int kMediumExtent = 64;
 HWY_INLINE auto cast(M32 mask) { return hn::RebindMask(DF32(), mask); }
 HWY_INLINE U32 keep(M32 mask, U32 words) { return hn::IfThenElseZero(hn::RebindMask(DU32(), mask), words); }
 
+/// first, first + 1 ... hn::Iota(), of a number that the compiler does not know, may write its lanes to memory one by
+/// one and then has to wait until all of them can be read at once.
+HWY_INLINE I32 numbers_from(int first) { return hn::Add(hn::Iota(DI32(), 0), hn::Set(DI32(), first)); }
+
 /// Bit i: lane i.
 HWY_INLINE std::uint64_t bits_of(M32 mask) {
   std::uint64_t bits = 0;

@@ -66,11 +66,12 @@ inline void draw_anywhere(Crossings left, Crossings right, int row, int end, con
   }
 }
 
+/// Without a branch: which of two vertices is above the other cannot be predicted.
 HWY_INLINE void sort_by_y(Point& a, Point& b) {
-  const bool swap = b.y < a.y;
-  const Point upper{swap ? b.x : a.x, swap ? b.y : a.y};
-  b = {swap ? a.x : b.x, swap ? a.y : b.y};
-  a = upper;
+  const std::int32_t exchange = b.y < a.y ? -1 : 0;
+  const std::int32_t x = (a.x ^ b.x) & exchange, y = (a.y ^ b.y) & exchange;
+  a = {a.x ^ x, a.y ^ y};
+  b = {b.x ^ x, b.y ^ y};
 }
 
 /// Never inlined, so that its code is the same whoever calls it.
@@ -83,7 +84,8 @@ HWY_NOINLINE void draw_large(const FixedTriangle<ShiftedFormat>& triangle, int w
   const auto first_row = [&](const Point& p) { return std::clamp((p.y + 127) >> 8, 0, strips.height); };
   const int top = first_row(v[0]), middle = first_row(v[1]), bottom = first_row(v[2]);
   if (top >= bottom) return;
-  const auto [leftmost, rightmost] = std::minmax({v[0].x, v[1].x, v[2].x});
+  const std::int32_t leftmost = std::min(std::min(v[0].x, v[1].x), v[2].x);
+  const std::int32_t rightmost = std::max(std::max(v[0].x, v[1].x), v[2].x);
   const bool in_bands = leftmost >= 0 && rightmost <= width * 256 && rightmost - leftmost <= kMostBandExtent * 256 &&
                         v[2].y - v[0].y <= kMostBandHeight;
   // Which of the edges is left; where they lie in one line it does not matter.

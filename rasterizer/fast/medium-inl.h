@@ -76,8 +76,7 @@ class RowCounts {
 
   /// The counts of the kLanes rows from `first` on; equal to each other from row `end` on.
   HWY_INLINE void at(int first, I32 end, I32& count0, I32& count1) const {
-    const auto di = DI32();
-    const I32 row = hn::Iota(di, first);
+    const I32 row = numbers_from(first);
     const F32 frow = hn::ConvertTo(DF32(), row);
     const auto above = cast(hn::Lt(row, middle_));
     const M32 live = hn::Lt(row, end);
@@ -94,7 +93,7 @@ class RowCounts {
 };
 
 /// Draws lane `lane`, which has rows and columns in the target.
-HWY_INLINE void draw_medium(const StoredSetup& s, std::size_t lane, const Strips& strips) {
+HWY_NOINLINE void draw_medium(const StoredSetup& s, std::size_t lane, const Strips& strips) {
   const int top = s.top[lane];
   const int begin = std::max(-top, 0);
   const int end = std::min(s.rows[lane], strips.height - top);
