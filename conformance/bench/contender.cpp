@@ -58,6 +58,7 @@ class FamilyContender : public MaskContender {
     resize(scene);
     return {};
   }
+  void shuffle(std::mt19937_64& random) override { shuffle_if_short(triangles_, random); }
   tl::expected<void, Error> draw() override {
     member_.cover_list(triangles_, *rasterizer::Mask::over(target_, words()));
     return {};
@@ -78,9 +79,13 @@ class InexactContender : public MaskContender {
   std::string name() const override { return fmt::format("inexact:{}", info_.name); }
 
   tl::expected<void, Error> prepare(const Scene& scene) override {
+    scene_ = scene;
     list_ = prepare_inexact(info_.name, scene);
     resize(scene);
     return {};
+  }
+  void shuffle(std::mt19937_64& random) override {
+    if (shuffle_if_short(scene_.triangles, random)) list_ = prepare_inexact(info_.name, scene_);
   }
   tl::expected<void, Error> draw() override {
     list_->cover_all(words());
@@ -90,6 +95,7 @@ class InexactContender : public MaskContender {
 
  private:
   const InexactInfo& info_;
+  Scene scene_;
   std::unique_ptr<InexactList> list_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -54,6 +55,9 @@ class Contender {
   virtual tl::expected<void, Error> prepare(const Scene& scene) = 0;
   /// Makes ready for the next draw(); not timed.
   virtual void clear() = 0;
+  /// Puts a short list into another order, in which it is drawn from now on; not timed. cover() numbers the triangles
+  /// as before only until then.
+  virtual void shuffle(std::mt19937_64&) {}
   /// Draws all triangles: this is what is timed.
   virtual tl::expected<void, Error> draw() = 0;
   /// Adds the coverage of triangle i alone to a mask of the scene's layout; not timed. Preceded by a draw().

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <random>
 #include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
@@ -30,6 +32,17 @@ tl::expected<std::vector<rasterizer::FixedTriangle<F>>, Error> snap_all(const Sc
 
 inline rasterizer::Target target_of(const Setting& setting) {
   return *rasterizer::Target::make(setting.target.width, setting.target.height);
+}
+
+/// Another order for a list that is drawn again and again, if it is short. Of those a processor learns which way each
+/// branch goes, and is up to a quarter faster than with triangles that it has not seen; a longer one it does not
+/// remember. Whether it is.
+template <class Triangle>
+bool shuffle_if_short(std::vector<Triangle>& triangles, std::mt19937_64& random) {
+  constexpr std::size_t kShort = 10'000;
+  const bool is_short = triangles.size() <= kShort;
+  if (is_short) std::ranges::shuffle(triangles, random);
+  return is_short;
 }
 
 /// The baseline.

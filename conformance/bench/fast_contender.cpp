@@ -31,6 +31,7 @@ class Fast : public Contender {
     return {};
   }
   void clear() override { united_.clear(); }
+  void shuffle(std::mt19937_64& random) override { shuffle_if_short(triangles_, random); }
   tl::expected<void, Error> draw() override {
     fast_.cover_union(triangles_, united_);
     return {};

@@ -1,8 +1,8 @@
 // Measuring one workload: how long each contender takes, and how much of what it covers is wrong.
 //
 // Time. Google Benchmark runs every contender's draw() several times over, the repetitions of all contenders shuffled,
-// so that a slow phase of the machine meets all of them; a ratio counts only within one such run. Masks are cleared
-// outside the time. Whose time that is, see Clock.
+// so that a slow phase of the machine meets all of them; a ratio counts only within one such run. Masks are cleared,
+// and short lists put into another order, outside the time. Whose time that is, see Clock.
 //
 // Error. Every triangle is drawn on its own and held against the scalar rasterizer, so that a missing and an
 // unexpected pixel never cancel; one triangle in 64 of those answers is held against the oracle by definition. That is

@@ -28,6 +28,7 @@ class Plain : public Contender {
     return {};
   }
   void clear() override { std::fill(pixels_.begin(), pixels_.end(), std::uint8_t{0}); }
+  void shuffle(std::mt19937_64& random) override { shuffle_if_short(triangles_, random); }
   tl::expected<void, Error> draw() override {
     const rasterizer::Target target = target_of(setting_);
     for (const auto& triangle : triangles_) cover_plain(loop_, triangle, target, pixels_.data());

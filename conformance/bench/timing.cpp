@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -63,10 +64,11 @@ tl::expected<std::vector<Statistics>, Error> time_draws(const std::vector<std::u
   initialize_google_benchmark();
   benchmark::ClearRegisteredBenchmarks();
   for (std::size_t i = 0; i < contenders.size(); ++i) {
-    const auto run = [contender = contenders[i].get()](benchmark::State& state) {
+    const auto run = [contender = contenders[i].get(), random = std::mt19937_64()](benchmark::State& state) mutable {
       for (auto _ : state) {
         state.PauseTiming();
         contender->clear();
+        contender->shuffle(random);
         const double before = contender->driver_seconds();
         state.ResumeTiming();
         if (const auto drawn = contender->draw(); !drawn) {

@@ -24,7 +24,7 @@ struct Statistics {
 Statistics statistics(std::vector<double> values);
 
 /// Seconds that draw() takes each of the contenders, which are prepared and have drawn before, in their order. The
-/// repetitions of all of them are shuffled; each clears untimed before every draw.
+/// repetitions of all of them are shuffled; each clears and shuffles untimed before every draw.
 tl::expected<std::vector<Statistics>, Error> time_draws(const std::vector<std::unique_ptr<Contender>>& contenders,
                                                         const Repetitions& repetitions);
 

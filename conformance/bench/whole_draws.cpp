@@ -4,11 +4,13 @@
 #include <atomic>
 #include <barrier>
 #include <chrono>
+#include <random>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "conformance/bench/clock.h"
+#include "conformance/bench/contenders.h"
 #include "conformance/bench/timing.h"
 #include "rasterizer/threads/threads.h"
 
@@ -91,16 +93,22 @@ WholeDraws time_whole_draws(int threads, const rasterizer::FastRasterizer& fast,
                             const rasterizer::Target& target, std::size_t repetitions) {
   rasterizer::ThreadedRasterizer threaded(fast, threads);
   rasterizer::StripMask mask(target);
-  const auto time_draw = [&](std::vector<double>& times, const auto& draw) {
+  std::vector list(triangles.begin(), triangles.end());
+  std::mt19937_64 random;
+  const auto prepare = [&] {
     mask.clear();
+    shuffle_if_short(list, random);
+  };
+  const auto time_draw = [&](std::vector<double>& times, const auto& draw) {
+    prepare();
     times.push_back(time_of(draw));
   };
   // What follows is one of a stream of such draws: caches and clocks have settled after another kind, or a pause.
   const auto follow = [&](const auto& draw) {
-    for (int i = 0; i < 2; ++i) mask.clear(), draw();
+    for (int i = 0; i < 2; ++i) prepare(), draw();
   };
-  const auto draw_alone = [&] { fast.cover_union(triangles, mask); };
-  const auto draw_threaded = [&] { threaded.cover_union(triangles, mask); };
+  const auto draw_alone = [&] { fast.cover_union(list, mask); };
+  const auto draw_threaded = [&] { threaded.cover_union(list, mask); };
   draw_alone();
   const double about = time_of(draw_alone);
   const auto more = static_cast<std::size_t>(std::clamp(5e6 / about, 1.0, 20.0));
