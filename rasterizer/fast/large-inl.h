@@ -101,11 +101,12 @@ HWY_NOINLINE void draw_large(const FixedTriangle<ShiftedFormat>& triangle, int w
     }
   };
   Crossings longer(v[0], v[2], top, bottom - top);
-  if (top < middle) draw_rows(longer, Crossings(v[0], v[1], top, middle - top), top, middle);
-  if (middle < bottom) {
-    longer.skip(middle - top);
-    draw_rows(longer, Crossings(v[1], v[2], middle, bottom - middle), middle, bottom);
-  }
+  // All of them before anything is drawn, which begins with guesses at how many strips there are.
+  const Crossings upper = top < middle ? Crossings(v[0], v[1], top, middle - top) : longer;
+  const Crossings lower = middle < bottom ? Crossings(v[1], v[2], middle, bottom - middle) : longer;
+  if (top < middle) draw_rows(longer, upper, top, middle);
+  longer.skip(middle - top);
+  if (middle < bottom) draw_rows(longer, lower, middle, bottom);
 }
 
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE
