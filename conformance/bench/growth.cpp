@@ -86,8 +86,7 @@ std::vector<GrowthAxis> make_axes() {
   return {
       {"triangles", "Triangles of 10 px anywhere on 1920x1080 pixels", "number of triangles",
        "Slope 1: each triangle is work of its own, and a list that has outgrown the caches is still read fast "
-       "enough.\\n"
-       "The scalar lines begin steeper: a processor predicts the branches of 1,000 triangles drawn again and again.",
+       "enough.",
        series(1e3, 10, 5), by_count, true},
       {"area", "Triangles of one area anywhere on 4096x4096 pixels", "area in px",
        "Flat where setting up a triangle is all; then 1/2 where the work goes with the rows or blocks along its "

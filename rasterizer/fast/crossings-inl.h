@@ -34,6 +34,7 @@ struct Crossings {
   std::int64_t t;      ///< in that row
   std::int64_t slope;  ///< from row to row
 
+  Crossings() = default;
   /// `rows`: how many of them will be asked for, at least one.
   Crossings(const Point& a, const Point& b, int row, int rows) {
     const std::int64_t dx = b.x - a.x;

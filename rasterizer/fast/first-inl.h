@@ -128,7 +128,7 @@ HWY_INLINE void first_in_plane(const SnappedTriangle* triangles, const LaneSetup
       continue;
     }
     const auto triangle = planes.shifted(triangles[lane], plane);
-    draw_large(triangle, width, scratch);
+    draw_halves(halves_of(triangle, width, scratch.height), scratch);
     const StripBox box(triangle, width, scratch.height);
     std::uint32_t* own = scratch.words + static_cast<std::size_t>(box.first_strip) * scratch.stride + box.top;
     take_first(box, own, scratch.stride, columns, own_number, to);

@@ -74,39 +74,57 @@ HWY_INLINE void sort_by_y(Point& a, Point& b) {
   b = {b.x ^ x, b.y ^ y};
 }
 
-/// Never inlined, so that its code is the same whoever calls it.
-HWY_NOINLINE void draw_large(const FixedTriangle<ShiftedFormat>& triangle, int width, const Strips& strips) {
+/// A triangle above and below its middle vertex: rows that one left and one right edge cross, none or more of each.
+struct Halves {
+  struct Half {
+    Crossings left, right;  ///< from row `begin` on, if that is before `end`
+    int begin, end;
+  };
+  Half upper, lower;
+  bool in_bands;  ///< how they are to be drawn
+};
+
+/// Of a triangle on a target of `width` by `height` pixels.
+HWY_INLINE Halves halves_of(const FixedTriangle<ShiftedFormat>& triangle, int width, int height) {
   Point v[3];
   for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value(), triangle[i].y.value()};
   sort_by_y(v[0], v[1]);
   sort_by_y(v[1], v[2]);
   sort_by_y(v[0], v[1]);
-  const auto first_row = [&](const Point& p) { return std::clamp((p.y + 127) >> 8, 0, strips.height); };
-  const int top = first_row(v[0]), middle = first_row(v[1]), bottom = first_row(v[2]);
-  if (top >= bottom) return;
+  const auto first_row = [&](const Point& p) { return std::clamp((p.y + 127) >> 8, 0, height); };
+  Halves halves;
+  const int top = halves.upper.begin = first_row(v[0]);
+  const int middle = halves.upper.end = halves.lower.begin = first_row(v[1]);
+  const int bottom = halves.lower.end = first_row(v[2]);
+  if (top >= bottom) return halves;
   const std::int32_t leftmost = std::min(std::min(v[0].x, v[1].x), v[2].x);
   const std::int32_t rightmost = std::max(std::max(v[0].x, v[1].x), v[2].x);
-  const bool in_bands = leftmost >= 0 && rightmost <= width * 256 && rightmost - leftmost <= kMostBandExtent * 256 &&
-                        v[2].y - v[0].y <= kMostBandHeight;
+  halves.in_bands = leftmost >= 0 && rightmost <= width * 256 && rightmost - leftmost <= kMostBandExtent * 256 &&
+                    v[2].y - v[0].y <= kMostBandHeight;
   // Which of the edges is left; where they lie in one line it does not matter.
   const bool longer_is_left =
       std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y) < std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y);
-  const auto draw_rows = [&](const Crossings& longer, const Crossings& shorter, int begin, int end) {
-    const Crossings& left = longer_is_left ? longer : shorter;
-    const Crossings& right = longer_is_left ? shorter : longer;
-    if (in_bands) {
-      draw_bands(left, right, begin, end, strips);
-    } else {
-      draw_anywhere(left, right, begin, end, strips);
-    }
+  const auto set = [&](Halves::Half& half, const Crossings& longer, const Crossings& shorter) {
+    half.left = longer_is_left ? longer : shorter;
+    half.right = longer_is_left ? shorter : longer;
   };
   Crossings longer(v[0], v[2], top, bottom - top);
-  // All of them before anything is drawn, which begins with guesses at how many strips there are.
-  const Crossings upper = top < middle ? Crossings(v[0], v[1], top, middle - top) : longer;
-  const Crossings lower = middle < bottom ? Crossings(v[1], v[2], middle, bottom - middle) : longer;
-  if (top < middle) draw_rows(longer, upper, top, middle);
+  if (top < middle) set(halves.upper, longer, Crossings(v[0], v[1], top, middle - top));
   longer.skip(middle - top);
-  if (middle < bottom) draw_rows(longer, lower, middle, bottom);
+  if (middle < bottom) set(halves.lower, longer, Crossings(v[1], v[2], middle, bottom - middle));
+  return halves;
+}
+
+/// Never inlined, so that its code is the same whoever calls it.
+HWY_NOINLINE void draw_halves(const Halves& halves, const Strips& strips) {
+  for (const Halves::Half* half : {&halves.upper, &halves.lower}) {
+    if (half->begin >= half->end) continue;
+    if (halves.in_bands) {
+      draw_bands(half->left, half->right, half->begin, half->end, strips);
+    } else {
+      draw_anywhere(half->left, half->right, half->begin, half->end, strips);
+    }
+  }
 }
 
 }  // namespace edgecase::rasterizer::HWY_NAMESPACE
