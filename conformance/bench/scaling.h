@@ -6,9 +6,8 @@
 //
 // What the model leaves out:
 //   - cache lines that move between processors: a helper's mask is added up by all threads, so half of its lines, and
-//     as many of the target's, are in another one's cache. For a screen's mask of 4,200 lines, two threads took 4 to 8
-//     us to add it up, and the helper 10 us longer to draw into it again. It weighs on draws of a few hundred us; a
-//     mask shared by many threads moves more of it. `line` says how far apart the processors are;
+//     as many of the target's, are in another one's cache. It weighs on draws of a few hundred us; a mask shared by many
+//     threads moves more of it. `line` says how far apart the processors are;
 //   - bandwidth that processors share, of the last-level cache and the memory: who draws into a large target alone may
 //     already use most of it;
 //   - clocks that fall as more processors work, and neighbours on the same machine: what `apart` shows;

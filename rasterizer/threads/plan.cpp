@@ -31,8 +31,9 @@ constexpr double kLeastWork = 25'000, kLeastToShare = 2 * kLeastWork;
 
 /// What a cache line of a mask costs if the mask, of so many bytes, is drawn into anywhere.
 double miss(double bytes) { return bytes <= (1 << 20) ? 0 : bytes <= (16 << 20) ? 4 : 20; }
-/// Of adding a word of a mask to a target, in the time of all threads: its cache line comes from another processor, or
-/// from memory, and so do the target's, and the mask's when its thread draws into it again.
+/// Of adding a word of a mask to a target, in the time of all threads: half of the mask's cache lines and half of the
+/// target's come from another processor, or from memory. 0.14 between processors that share a cache, more between
+/// others.
 constexpr double kMoveWord = 0.35;
 
 /// A triangle's pixels on the target.

@@ -3,7 +3,6 @@
 #include <cassert>
 #include <chrono>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "rasterizer/threads/crew.h"
@@ -13,19 +12,15 @@
 namespace edgecase::rasterizer {
 
 struct ThreadedRasterizer::State {
-  using Canvases = std::vector<TiledDraw::Canvas>;
-
   State(const FastRasterizer& rasterizer, int threads)
-      : fast(rasterizer),
-        canvases(std::make_shared<Canvases>()),
-        crew(threads, [canvases = canvases](std::size_t place) { (*canvases)[place].clear(); }) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(threads); ++i) canvases->emplace_back(i);
+      : fast(rasterizer), crew(threads, [this](std::size_t place) { canvases[place].clear(); }) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(threads); ++i) canvases.emplace_back(i);
   }
 
   FastRasterizer fast;
-  std::shared_ptr<Canvases> canvases;  ///< one for each place of the crew
-  Crew crew;
+  std::vector<TiledDraw::Canvas> canvases;  ///< one for each place of the crew, which ends before they do
   TiledDraw::Memory memory;
+  Crew crew;
   Waking waking;
 };
 
@@ -58,7 +53,7 @@ void ThreadedRasterizer::cover_union(std::span<const FixedTriangle<Format16_8>> 
   if (plan.threads <= 1) return state_->fast.cover_union(triangles, mask);
   TiledDraw drawing(state_->fast, triangles, plan, mask, state_->memory);
   // The caller has place 0, whose canvas is in place.
-  state_->crew.run(plan.threads, [&](std::size_t place) { drawing.work((*state_->canvases)[place]); });
+  state_->crew.run(plan.threads, [&](std::size_t place) { drawing.work(state_->canvases[place]); });
 }
 
 }  // namespace edgecase::rasterizer

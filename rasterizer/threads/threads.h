@@ -44,7 +44,7 @@ class ThreadedRasterizer {
   ThreadedRasterizer& operator=(ThreadedRasterizer&&) noexcept;
 
   /// Adds the coverage of every triangle to `mask`: their union. Lists too short to be worth it are drawn by one
-  /// thread. Allocates. One call at a time.
+  /// thread. Allocates; where that fails while several threads draw, the program ends. One call at a time.
   void cover_union(std::span<const FixedTriangle<Format16_8>> triangles, StripMask& mask);
 
   /// The same by a given plan, which must be for that list and target.
