@@ -79,13 +79,16 @@ class InexactContender : public MaskContender {
   std::string name() const override { return fmt::format("inexact:{}", info_.name); }
 
   tl::expected<void, Error> prepare(const Scene& scene) override {
-    scene_ = scene;
+    short_scene_.reset();
+    if (scene.triangles.size() <= kShortList) short_scene_ = scene;
     list_ = prepare_inexact(info_.name, scene);
     resize(scene);
     return {};
   }
   void shuffle(std::mt19937_64& random) override {
-    if (shuffle_if_short(scene_.triangles, random)) list_ = prepare_inexact(info_.name, scene_);
+    if (!short_scene_) return;
+    shuffle_if_short(short_scene_->triangles, random);
+    list_ = prepare_inexact(info_.name, *short_scene_);
   }
   tl::expected<void, Error> draw() override {
     list_->cover_all(words());
@@ -95,7 +98,7 @@ class InexactContender : public MaskContender {
 
  private:
   const InexactInfo& info_;
-  Scene scene_;
+  std::optional<Scene> short_scene_;
   std::unique_ptr<InexactList> list_;
 };
 

@@ -34,15 +34,14 @@ inline rasterizer::Target target_of(const Setting& setting) {
   return *rasterizer::Target::make(setting.target.width, setting.target.height);
 }
 
-/// Another order for a list that is drawn again and again, if it is short. Of those a processor learns which way each
-/// branch goes, and is up to a quarter faster than with triangles that it has not seen; a longer one it does not
-/// remember. Whether it is.
+/// Of lists up to so long that are drawn again and again a processor learns which way each branch goes, and is up to a
+/// quarter faster than with triangles that it has not seen; longer ones it does not remember.
+inline constexpr std::size_t kShortList = 10'000;
+
+/// Another order for a short list.
 template <class Triangle>
-bool shuffle_if_short(std::vector<Triangle>& triangles, std::mt19937_64& random) {
-  constexpr std::size_t kShort = 10'000;
-  const bool is_short = triangles.size() <= kShort;
-  if (is_short) std::ranges::shuffle(triangles, random);
-  return is_short;
+void shuffle_if_short(std::vector<Triangle>& triangles, std::mt19937_64& random) {
+  if (triangles.size() <= kShortList) std::ranges::shuffle(triangles, random);
 }
 
 /// The baseline.

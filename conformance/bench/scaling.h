@@ -6,8 +6,8 @@
 //
 // What the model leaves out:
 //   - cache lines that move between processors: a helper's mask is added up by all threads, so half of its lines, and
-//     as many of the target's, are in another one's cache. It weighs on draws of a few hundred us; a mask shared by many
-//     threads moves more of it. `line` says how far apart the processors are;
+//     as many of the target's, are in another one's cache. It weighs on draws of a few hundred us; a mask shared by
+//     many threads moves more of it. `line` says how far apart the processors are;
 //   - bandwidth that processors share, of the last-level cache and the memory: who draws into a large target alone may
 //     already use most of it;
 //   - clocks that fall as more processors work, and neighbours on the same machine: what `apart` shows;

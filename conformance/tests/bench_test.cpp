@@ -8,11 +8,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <random>
 #include <set>
 
+#include "conformance/bench/contenders.h"
 #include "conformance/bench/plain.h"
 #include "conformance/bench/plot.h"
+#include "conformance/bench/timing.h"
 #include "conformance/subjects/family_subject.h"
 #include "conformance/tests/temporary_folder.h"
 #include "rasterizer/fast/fast.h"
@@ -117,6 +120,45 @@ TEST(BenchErrors, MissingAndUnexpectedPixelsAddUpWhereverTheyAre) {
   ASSERT_TRUE(count);
   EXPECT_EQ(count->covered, 12u);
   EXPECT_EQ(count->wrong, 12u + 1u);
+}
+
+/// Notes what is asked of it.
+class Noting : public Stray {
+ public:
+  void clear() override { asked_ += 'c'; }
+  void shuffle(std::mt19937_64&) override { asked_ += 's'; }
+  tl::expected<void, Error> draw() override {
+    asked_ += 'd';
+    return {};
+  }
+  const std::string& asked() const { return asked_; }
+
+ private:
+  std::string asked_;
+};
+
+TEST(BenchTime, EachDrawComesAfterClearingAndShuffling) {
+  std::vector<std::unique_ptr<Contender>> contenders;
+  contenders.push_back(std::make_unique<Noting>());
+  const std::string& asked = static_cast<const Noting&>(*contenders.front()).asked();
+  ASSERT_TRUE(time_draws(contenders, {2, 1e-6}));
+  ASSERT_GE(asked.size(), 6u);
+  for (std::size_t i = 0; i < asked.size(); ++i) ASSERT_EQ(asked[i], "csd"[i % 3]) << i;
+}
+
+TEST(BenchTime, ShortListsAreShuffledAndLongOnesAreNot) {
+  std::mt19937_64 random;
+  std::vector<std::size_t> numbers(kShortList);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  std::vector<std::size_t> shuffled = numbers;
+  shuffle_if_short(shuffled, random);
+  EXPECT_NE(shuffled, numbers);
+  std::ranges::sort(shuffled);
+  EXPECT_EQ(shuffled, numbers);
+  shuffled.push_back(0);
+  const std::vector<std::size_t> longer = shuffled;
+  shuffle_if_short(shuffled, random);
+  EXPECT_EQ(shuffled, longer);
 }
 
 TEST(BenchErrors, TheMoreBitsTheNearerToTheRealGeometry) {

@@ -96,11 +96,11 @@ HWY_INLINE Halves halves_of(const FixedTriangle<ShiftedFormat>& triangle, int wi
   const int top = halves.upper.begin = first_row(v[0]);
   const int middle = halves.upper.end = halves.lower.begin = first_row(v[1]);
   const int bottom = halves.lower.end = first_row(v[2]);
-  if (top >= bottom) return halves;
   const std::int32_t leftmost = std::min(std::min(v[0].x, v[1].x), v[2].x);
   const std::int32_t rightmost = std::max(std::max(v[0].x, v[1].x), v[2].x);
   halves.in_bands = leftmost >= 0 && rightmost <= width * 256 && rightmost - leftmost <= kMostBandExtent * 256 &&
                     v[2].y - v[0].y <= kMostBandHeight;
+  if (top >= bottom) return halves;
   // Which of the edges is left; where they lie in one line it does not matter.
   const bool longer_is_left =
       std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y) < std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y);

@@ -137,8 +137,9 @@ HWY_INLINE std::uint64_t block_lanes(const LaneSetup& s, I32 is_inside, std::uin
 inline constexpr int kWorthLanes = kLanes * 3 / 4;
 static_assert(kSmallRows <= kBlockRows && kSmallColumns + kStripWidth - 1 <= kBlockColumns);
 
-/// Draws the triangles in `lanes`, as draw_plane() does. They are set up together, as drawing one begins with guesses
-/// at its edges, which are known the sooner. Never inlined, not to be in the way of smaller ones.
+/// Draws the triangles in `lanes`, as draw_plane() does. They are set up together, so that their edges are known when
+/// drawing begins: until then the processor goes on with a guess at how many strips they have. Never inlined, so that
+/// smaller triangles have the registers.
 template <class Planes>
 HWY_NOINLINE void draw_large(const SnappedTriangle* triangles, std::uint64_t lanes, const Planes& planes, int plane,
                              int width, std::size_t apart, const Strips& strips) {
