@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <cstddef>
-#include <span>
 
 namespace edgecase::conformance {
 namespace {
@@ -12,21 +12,14 @@ namespace {
 // A convex polygon gains at most one vertex per plane. Rounding may bend it: then each inside vertex may gain one.
 constexpr std::size_t kMaxVertices = 64;
 
+template <class Vertex>
+using Vertices = boost::container::static_vector<Vertex, kMaxVertices>;
+
 struct ClipVertex {
   ClipPosition at;
   bool original = true;
 };
-
-struct Polygon {
-  std::array<ClipVertex, kMaxVertices> vertices;
-  std::size_t size = 0;
-
-  bool add(const ClipVertex& vertex) {
-    if (size == kMaxVertices) return false;
-    vertices[size++] = vertex;
-    return true;
-  }
-};
+using Polygon = Vertices<ClipVertex>;
 
 // The signed distance, inside at 0 and above. llvmpipe sums the products of the position and (+-1, 0, 0, 1) from left
 // to right; adding the zeros changes no sum, and so this is the same.
@@ -50,11 +43,14 @@ float distance(const TransformModel& model, float shrink, ClipPlane plane, const
   return 0;
 }
 
-// Bit i: outside planes[i].
+unsigned bit_of(ClipPlane plane) { return 1U << static_cast<unsigned>(plane); }
+
+// The planes that it lies outside of.
 unsigned outcode(const TransformModel& model, float shrink, const ClipPosition& p) {
+  using enum ClipPlane;
   unsigned code = 0;
-  for (std::size_t i = 0; i < model.planes.size(); ++i) {
-    if (distance(model, shrink, model.planes[i], p) < 0) code |= 1U << i;
+  for (const ClipPlane plane : {left, right, bottom, top, near, far}) {
+    if (distance(model, shrink, plane, p) < 0) code |= bit_of(plane);
   }
   return code;
 }
@@ -90,22 +86,27 @@ ClipPosition crossing(Interpolation how, const ClipPosition& inside, float d_ins
 
 // Cuts off what lies outside of the plane; false if that makes too many vertices.
 bool cut(const TransformModel& model, float shrink, ClipPlane plane, const Polygon& in, Polygon& out) {
-  out.size = 0;
-  for (std::size_t i = 0; i < in.size; ++i) {
-    const ClipVertex& a = in.vertices[i];
-    const ClipVertex& b = in.vertices[(i + 1) % in.size];
+  out.clear();
+  const auto add = [&out](const ClipVertex& vertex) {
+    if (out.size() == kMaxVertices) return false;
+    out.push_back(vertex);
+    return true;
+  };
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const ClipVertex& a = in[i];
+    const ClipVertex& b = in[i + 1 == in.size() ? 0 : i + 1];
     const float da = distance(model, shrink, plane, a.at);
     const float db = distance(model, shrink, plane, b.at);
     const bool a_stays = da >= 0;
     const bool b_stays = db >= 0;
-    if (a_stays && !out.add(a)) return false;
+    if (a_stays && !add(a)) return false;
     if (a_stays == b_stays) continue;
     // An edge that comes in to a vertex on the plane itself yields no new vertex in SwiftShader. In llvmpipe it does:
     // at the same place in clip space, but projected as new vertices are.
     if (model.interpolation == Interpolation::crosswise && !a_stays && db == 0) continue;
     const ClipPosition at =
         a_stays ? crossing(model.interpolation, a.at, da, b.at, db) : crossing(model.interpolation, b.at, db, a.at, da);
-    if (!out.add({at, false})) return false;
+    if (!add({at, false})) return false;
   }
   return true;
 }
@@ -122,6 +123,12 @@ bool within_reach(const ClipTriangle& triangle) {
   return true;
 }
 
+// Where a vertex lies, and whence the snap took it there.
+struct Projected {
+  Position snapped;
+  Position before_snap;
+};
+
 class Projection {
  public:
   Projection(const TransformModel& model, const Setting& setting, const Viewport& viewport)
@@ -130,24 +137,16 @@ class Projection {
         y_(AxisTransform::of(viewport.y, viewport.height)),
         multisampled_(setting.samples() > 1) {}
 
-  Position before_snap(const ClipVertex& vertex) const {
+  std::optional<Projected> operator()(const ClipVertex& vertex) const {
     const float inverse_w = 1.0F / vertex.at.w;
-    return {in_window(x_, how(vertex), vertex.at.x, inverse_w), in_window(y_, how(vertex), vertex.at.y, inverse_w)};
-  }
-
-  std::optional<Position> operator()(const ClipVertex& vertex) const {
-    const float inverse_w = 1.0F / vertex.at.w;
-    const auto x = transformed(model_, x_, how(vertex), multisampled_, vertex.at.x, inverse_w);
-    const auto y = transformed(model_, y_, how(vertex), multisampled_, vertex.at.y, inverse_w);
+    const MultiplyAdd how = vertex.original ? model_.multiply_add : MultiplyAdd::separate;
+    const auto x = transformed(model_, x_, how, multisampled_, vertex.at.x, inverse_w);
+    const auto y = transformed(model_, y_, how, multisampled_, vertex.at.y, inverse_w);
     if (!x || !y) return std::nullopt;
-    return Position{*x, *y};
+    return Projected{{x->snapped, y->snapped}, {x->window, y->window}};
   }
 
  private:
-  MultiplyAdd how(const ClipVertex& vertex) const {
-    return vertex.original ? model_.multiply_add : MultiplyAdd::separate;
-  }
-
   const TransformModel& model_;
   AxisTransform x_;
   AxisTransform y_;
@@ -188,25 +187,20 @@ Turn turn_before_snap(const Triangle& t) {
   return area > 0 ? Turn::clockwise : area < 0 ? Turn::counter_clockwise : Turn::none;
 }
 
-// The polygon's vertices on the grid, and where the snap took them from.
-struct Outline {
-  std::array<Position, kMaxVertices> vertices;
-  std::array<Position, kMaxVertices> before_snap;
-  std::size_t size = 0;
-};
-
 // `first_goes_last`: what turn_before_snap() is asked of has the fan's first vertex last.
-bool append_fan(const TransformModel& model, const Outline& outline, bool first_goes_last,
+bool append_fan(const TransformModel& model, const Vertices<Projected>& outline, bool first_goes_last,
                 std::vector<WindowTriangle>& out) {
   const std::size_t before = out.size();
-  for (std::size_t i = 2; i < outline.size; ++i) {
-    const auto part_of = [i](const auto& vertices) { return Triangle{vertices[0], vertices[i - 1], vertices[i]}; };
-    const Triangle part = part_of(outline.vertices);
+  for (std::size_t i = 2; i < outline.size(); ++i) {
+    const auto part_of = [&](Position Projected::*at) {
+      return Triangle{outline[0].*at, outline[i - 1].*at, outline[i].*at};
+    };
+    const Triangle part = part_of(&Projected::snapped);
     if (!within(model.max_extent, part)) {
       out.resize(before);
       return false;
     }
-    Triangle before_snap = part_of(outline.before_snap);
+    Triangle before_snap = part_of(&Projected::before_snap);
     if (first_goes_last) std::rotate(before_snap.begin(), before_snap.begin() + 1, before_snap.end());
     if (turn_of(part) != Turn::none) out.push_back({part, turn_before_snap(before_snap)});
   }
@@ -217,25 +211,17 @@ float shrink_of(const TransformModel& model, const Setting& setting) {
   return setting.samples() > 1 ? model.multisample_shrink : model.shrink;
 }
 
-// What is inside all planes; empty if nothing is. Nothing if rounding made too many vertices.
-std::optional<Polygon> clipped(const TransformModel& model, float shrink, const ClipTriangle& triangle) {
-  unsigned any = 0;
-  unsigned all = ~0U;
-  Polygon polygon;
-  for (const ClipPosition& p : triangle) {
-    any |= outcode(model, shrink, p);
-    all &= outcode(model, 1, p);  // guard bands save nothing that is outside as a whole
-    polygon.add({p, true});
-  }
-  if (all != 0) return Polygon{};
+// Leaves of `polygon` what is inside the planes `any`, nothing if fewer than three vertices are; false if rounding made
+// too many vertices.
+bool clip(const TransformModel& model, float shrink, unsigned any, Polygon& polygon) {
   Polygon next;
-  for (std::size_t i = 0; i < model.planes.size() && polygon.size >= 3; ++i) {
-    if ((any >> i & 1U) == 0) continue;
-    if (!cut(model, shrink, model.planes[i], polygon, next)) return std::nullopt;
+  for (const ClipPlane plane : model.planes) {
+    if ((any & bit_of(plane)) == 0) continue;
+    if (!cut(model, shrink, plane, polygon, next)) return false;
     std::swap(polygon, next);
+    if (polygon.size() < 3) polygon.clear();
   }
-  if (polygon.size < 3) polygon.size = 0;
-  return polygon;
+  return true;
 }
 
 }  // namespace
@@ -255,29 +241,42 @@ std::optional<Turn> append_window_triangles(const TransformModel& model, const S
                                             const Viewport& viewport, const ClipTriangle& triangle,
                                             std::vector<WindowTriangle>& out) {
   if (!within_reach(triangle)) return std::nullopt;
-  const auto polygon = clipped(model, shrink_of(model, setting), triangle);
-  if (!polygon) return std::nullopt;
+  const float shrink = shrink_of(model, setting);
+  unsigned any = 0;  // of the planes, guard bands included
+  unsigned some = 0;
+  unsigned all = ~0U;
+  Polygon polygon;
+  for (const ClipPosition& p : triangle) {
+    const unsigned code = outcode(model, 1, p);
+    any |= shrink == 1 ? code : outcode(model, shrink, p);
+    some |= code;
+    all &= code;
+    polygon.push_back({p, true});
+  }
+  if (all != 0) {  // guard bands save nothing that is outside as a whole
+    polygon.clear();
+  } else if (any != 0 && !clip(model, shrink, any, polygon)) {
+    return std::nullopt;
+  }
   const Projection project(model, setting, viewport);
-  Outline outline;
-  for (std::size_t i = 0; i < polygon->size; ++i) {
-    const auto at = project(polygon->vertices[i]);
+  Vertices<Projected> outline;
+  for (const ClipVertex& vertex : polygon) {
+    const auto at = project(vertex);
     if (!at) return std::nullopt;
-    outline.before_snap[outline.size] = project.before_snap(polygon->vertices[i]);
-    outline.vertices[outline.size++] = *at;
+    outline.push_back(*at);
   }
   Turn turn = Turn::none;
-  if (outline.size != 0 && model.winding == Winding::binary32_before_clipping) {
+  if (!outline.empty() && model.winding == Winding::binary32_before_clipping) {
     std::array<Position, 3> unclipped;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto at = project({triangle[i], true});
       if (!at) return std::nullopt;
-      unclipped[i] = *at;
+      unclipped[i] = at->snapped;
     }
     turn = turn_in_binary32(unclipped, triangle);
   }
   // A triangle that nothing is cut off keeps its order.
-  const bool first_goes_last = model.fan_ends_with_first && leaves_view_volume(model, triangle);
-  if (!append_fan(model, outline, first_goes_last, out)) return std::nullopt;
+  if (!append_fan(model, outline, model.fan_ends_with_first && some != 0, out)) return std::nullopt;
   return turn;
 }
 

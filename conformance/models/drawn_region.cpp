@@ -9,8 +9,6 @@ namespace {
 
 // llvmpipe's tiles, beyond which even its loose scissor lets nothing through.
 constexpr int kTile = 64;
-// In sixteenths of a pixel.
-constexpr int kPixelCentre = 8;
 
 // Pixels first to last, both included.
 struct Range {
@@ -41,7 +39,7 @@ Rect rectangle(const Range& x, const Range& y) {
 
 }  // namespace
 
-DrawnRegion::DrawnRegion(const TransformModel& model, const Setting& setting, const Viewport* viewport)
+ScissorReach::ScissorReach(const TransformModel& model, const Setting& setting, const Viewport* viewport)
     : test_boxes_(model.loose_multisample_scissor && setting.samples() > 1) {
   const Extent target = setting.target;
   const Rect scissor = setting.scissor.value_or(Rect{0, 0, target.width, target.height});
@@ -51,34 +49,39 @@ DrawnRegion::DrawnRegion(const TransformModel& model, const Setting& setting, co
     x = meet(x, viewport_pixels(AxisTransform::of(viewport->x, viewport->width)));
     y = meet(y, viewport_pixels(AxisTransform::of(viewport->y, viewport->height)));
   }
-  scissor_ = rectangle(x, y);
-  reach_ = scissor_;
-  if (!test_boxes_ || scissor_.width == 0) return;
+  told_ = rectangle(x, y);
+  all_ = told_;
+  if (!test_boxes_ || told_.width == 0) return;
   const Range wide{x.first % kTile == 0 ? x.first : x.first - 1, x.last};
   const Range tall{y.first % kTile == 0 ? y.first : y.first - 1, y.last};
-  reach_ = rectangle(wide, tall);
-  const MaskLayout layout(setting);
-  passed_.resize(layout.words());
-  for (int row = tall.first; row <= tall.last; ++row) {
-    for (int column = wide.first; column <= wide.last; ++column) {
-      for (int s = 0; s < layout.samples; ++s) {
-        const SampleLocation at = setting.sample_locations[static_cast<std::size_t>(s)];
-        if ((column < x.first && at.x <= kPixelCentre) || (row < y.first && at.y <= kPixelCentre)) continue;
-        cover(passed_, layout.bit(column, row, s));
-      }
-    }
-  }
+  all_ = rectangle(wide, tall);
 }
 
-bool DrawnRegion::meets(const Triangle& triangle) const {
+bool ScissorReach::meets(const Triangle& triangle) const {
   if (!test_boxes_) return true;
   const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
   const auto [top, bottom] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
   // The last pixel that a box reaches into: one that ends on a pixel's border does not reach beyond it.
-  return std::floor(left) < static_cast<float>(scissor_.x + scissor_.width) &&
-         std::ceil(right) > static_cast<float>(scissor_.x) &&
-         std::floor(top) < static_cast<float>(scissor_.y + scissor_.height) &&
-         std::ceil(bottom) > static_cast<float>(scissor_.y);
+  return std::floor(left) < static_cast<float>(told_.x + told_.width) &&
+         std::ceil(right) > static_cast<float>(told_.x) &&
+         std::floor(top) < static_cast<float>(told_.y + told_.height) &&
+         std::ceil(bottom) > static_cast<float>(told_.y);
+}
+
+DrawnRegion::DrawnRegion(const TransformModel& model, const Setting& setting, const Viewport* viewport)
+    : reach_(model, setting, viewport) {
+  const Rect& all = reach_.all();
+  if (all == reach_.told()) return;
+  const MaskLayout layout(setting);
+  passed_.resize(layout.words());
+  for (int row = all.y; row < all.y + all.height; ++row) {
+    for (int column = all.x; column < all.x + all.width; ++column) {
+      for (int s = 0; s < layout.samples; ++s) {
+        if (!reach_.lets_through(column, row, setting.sample_locations[static_cast<std::size_t>(s)])) continue;
+        cover(passed_, layout.bit(column, row, s));
+      }
+    }
+  }
 }
 
 void DrawnRegion::filter(MutableMaskView mask) const {

@@ -2,6 +2,7 @@
 // models of where it deviates from the rules. In the order of operations of Mesa's lp_setup_tri.c.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -47,8 +48,9 @@ std::int64_t value_at(const Setting& setting, const Edge& edge, int sample);
 struct Box {
   std::int64_t left, top, right, bottom;
 
-  friend bool meet(const Box& a, const Box& b) {
-    return a.left <= b.right && b.left <= a.right && a.top <= b.bottom && b.top <= a.bottom;
+  bool empty() const { return left > right || top > bottom; }
+  friend Box intersection(const Box& a, const Box& b) {
+    return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right), std::min(a.bottom, b.bottom)};
   }
 };
 

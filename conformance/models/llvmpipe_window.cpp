@@ -1,6 +1,8 @@
 #include "conformance/models/llvmpipe_window.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include "conformance/models/drawn_region.h"
 #include "conformance/models/llvmpipe_setup.h"
@@ -13,38 +15,61 @@ using namespace llvmpipe;
 
 bool loose_scissor(const Setting& setting) { return setting.samples() > 1 && setting.scissor; }
 
-// Whether the triangle's box has to do with the column of pixels left of the scissor or the row above it.
+// The column of pixels left of the scissor and the row above it, with the pixel where they meet.
+struct Strips {
+  ScissorReach reach;
+  Box column{0, 0, -1, -1};
+  Box row{0, 0, -1, -1};
+
+  explicit Strips(const Setting& setting) : reach(lavapipe_model(), setting, nullptr) {
+    const Rect& all = reach.all();
+    const Rect& told = reach.told();
+    const std::int64_t right = std::int64_t{all.x} + all.width - 1, bottom = std::int64_t{all.y} + all.height - 1;
+    if (all.x != told.x) column = {all.x, all.y, all.x, bottom};
+    if (all.y != told.y) row = {told.x, all.y, right, all.y};
+  }
+};
+
+Box box_of(const Rect& r) { return {r.x, r.y, std::int64_t{r.x} + r.width - 1, std::int64_t{r.y} + r.height - 1}; }
+
 bool may_pass_scissor(const Setting& setting, const Triangle& triangle) {
   if (!loose_scissor(setting)) return false;
   const auto points = snapped_points(setting, triangle);
   if (!points) return false;
-  const Box box = box_of(setting, *points), scissor = scissor_of(setting);
-  if (scissor.left > scissor.right || scissor.top > scissor.bottom) return false;
-  const Box left{scissor.left - 1, scissor.top - 1, scissor.left - 1, scissor.bottom};
-  const Box above{scissor.left - 1, scissor.top - 1, scissor.right, scissor.top - 1};
-  return meet(box, left) || meet(box, above);
+  const Strips strips(setting);
+  const Box box = llvmpipe::box_of(setting, *points);
+  if (intersection(box, box_of(strips.reach.told())).empty()) return false;
+  return !intersection(box, strips.column).empty() || !intersection(box, strips.row).empty();
 }
 
-// As the rules have it, but with what the scissor lets through.
-void draw_past_scissor(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
-  std::ranges::fill(mask, 0);
-  const auto points = snapped_points(setting, triangle);
-  const DrawnRegion region(lavapipe_model(), setting, nullptr);
-  if (!points || is_culled(setting, area_of(*points)) || !region.meets(triangle)) return;
-  const auto edges = edges_of(setting, *points);
+void cover_where_inside(const Setting& setting, const std::array<Edge, 3>& edges, const Box& box,
+                        const ScissorReach& reach, MutableMaskView mask) {
   const MaskLayout layout(setting);
-  const Rect& reach = region.reach();
-  for (int row = reach.y; row < reach.y + reach.height; ++row) {
-    for (int column = reach.x; column < reach.x + reach.width; ++column) {
-      for (int sample = 0; sample < setting.samples(); ++sample) {
-        if (std::ranges::all_of(
-                edges, [&](const Edge& edge) { return value_at(setting, edge.at(column, row), sample) > 0; })) {
-          cover(mask, layout.bit(column, row, sample));
-        }
+  for (int sample = 0; sample < setting.samples(); ++sample) {
+    const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(sample)];
+    for (std::int64_t row = box.top; row <= box.bottom; ++row) {
+      std::array<std::int64_t, 3> values;
+      std::ranges::transform(edges, values.begin(),
+                             [&](const Edge& e) { return value_at(setting, e.at(box.left, row), sample); });
+      for (std::int64_t column = box.left; column <= box.right; ++column) {
+        const bool inside = values[0] > 0 && values[1] > 0 && values[2] > 0;
+        const int x = static_cast<int>(column), y = static_cast<int>(row);
+        if (inside && reach.lets_through(x, y, location)) cover(mask, layout.bit(x, y, sample));
+        for (std::size_t i = 0; i < 3; ++i) values[i] += edges[i].a * kPixel;
       }
     }
   }
-  region.filter(mask);
+}
+
+// The rules say what is covered within the scissor.
+void draw_past_scissor(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
+  const auto points = snapped_points(setting, triangle);
+  if (!points || is_culled(setting, area_of(*points))) return;
+  const Strips strips(setting);
+  const auto edges = edges_of(setting, *points);
+  const Box box = llvmpipe::box_of(setting, *points);
+  cover_where_inside(setting, edges, intersection(box, strips.column), strips.reach, mask);
+  cover_where_inside(setting, edges, intersection(box, strips.row), strips.reach, mask);
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ bool llvmpipe_may_deviate(const Setting& setting, const Triangle& triangle);
 /// The same for a whole list: says no only if it does so for each of them. Looks at little more than their extents.
 bool llvmpipe_any_may_deviate(const Setting& setting, std::span<const Triangle> triangles);
 
-/// Writes every word of `mask`, which has MaskLayout(setting), for a triangle that llvmpipe_may_deviate(). Positions
-/// pass through the viewport transform unchanged (enclosing_viewport.h).
+/// Turns `mask`, which has MaskLayout(setting) and is what the rules cover of a triangle that llvmpipe_may_deviate(),
+/// into what llvmpipe covers. Positions pass through the viewport transform unchanged (enclosing_viewport.h).
 void predict_llvmpipe(const Setting& setting, const Triangle& triangle, MutableMaskView mask);
 
 }  // namespace edgecase::conformance

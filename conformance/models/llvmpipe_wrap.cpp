@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
-#include <vector>
 
 #include "conformance/models/llvmpipe_setup.h"
 #include "conformance/scene/coordinates.h"
@@ -31,9 +31,12 @@ bool is_in(const Edge& e, std::int64_t size) {
                               size * (std::min<std::int64_t>(e.a, 0) + std::min<std::int64_t>(e.b, 0)));
 }
 
+/// Those of the triangle and of the scissor's sides.
+using Edges = boost::container::static_vector<Edge, 7>;
+
 /// A side of the scissor is one more edge where the triangle crosses it. Between samples its constants make no
 /// difference; of blocks they decide which are asked sample by sample.
-void append_scissor_edges(const Setting& setting, const Box& box, const Box& scissor, std::vector<Edge>& edges) {
+void append_scissor_edges(const Setting& setting, const Box& box, const Box& scissor, Edges& edges) {
   const std::int64_t loose = setting.samples() > 1 ? 127 : 0;
   const auto low = [&](std::int64_t first) { return -((first - 1) * kPixel + loose); };
   const auto high = [&](std::int64_t last) { return last * kPixel + 127 + loose; };
@@ -53,21 +56,25 @@ std::int64_t extent(const Box& box) {
 /// box. One that reaches 2^29 is wider and higher than a block, and then ends in the first one if it ends in any.
 bool may_wrap_by_four(const Setting& setting, const Box& box) {
   if (setting.samples() > 1 || box.right >= kBlock || box.bottom >= kBlock) return false;
-  std::vector<Edge> sides;
+  Edges sides;
   append_scissor_edges(setting, box, scissor_of(setting), sides);
   return sides.size() == 1;
 }
 
-void draw_by_four(const Setting& setting, const std::vector<Edge>& edges, MutableMaskView mask) {
+void draw_by_four(const Setting& setting, const Edges& edges, MutableMaskView mask) {
   const MaskLayout layout(setting);
   for (int row = 0; row < std::min(kBlock, setting.target.height); ++row) {
-    for (int column = 0; column < std::min(kBlock, setting.target.width); ++column) {
-      const bool outside = std::ranges::any_of(edges, [&](const Edge& e) {
-        const std::int64_t c = e.at(column, row).c;
-        return c <= 0 || negative_in_32_bits(4 * (c - 1));
-      });
-      if (!outside) cover(mask, layout.bit(column, row, 0));
+    const int columns = std::min(kBlock, setting.target.width);
+    std::uint64_t inside = (std::uint64_t{1} << columns) - 1;
+    for (const Edge& e : edges) {
+      std::uint64_t accepted = 0;
+      std::int64_t c = e.at(0, row).c;
+      for (int column = 0; column < columns; ++column, c += e.a * kPixel) {
+        accepted |= std::uint64_t{c > 0 && !negative_in_32_bits(4 * (c - 1))} << column;
+      }
+      inside &= accepted;
     }
+    mask[layout.bit(0, row, 0) / 64] = inside;
   }
 }
 
@@ -76,50 +83,76 @@ class Tile {
   Tile(const Setting& setting, MutableMaskView mask) : setting_(setting), layout_(setting), mask_(mask) {}
 
   /// The square of `size` pixels at (x, y), in which `edges` have their origin, is drawn as 16 of a quarter's side.
-  void draw(const std::vector<Edge>& edges, int x, int y, int size) {
+  void draw(const Edges& edges, int x, int y, int size) {
+    if (size == kSampled) return draw_samples(edges, x, y);
     const int quarter = size / 4;
-    if (quarter == 1) return draw_samples(edges, x, y);
-    std::array<std::vector<Edge>, 16> blocks;
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const int column = static_cast<int>(i % 4) * quarter, row = static_cast<int>(i / 4) * quarter;
-      for (const Edge& e : edges) blocks[i].push_back(e.at(column, row));
+    unsigned out = 0;
+    unsigned in = 0xffff;
+    for (const Edge& e : edges) {
+      for (int i = 0; i < 16; ++i) {
+        const Edge block = e.at(i % 4 * quarter, i / 4 * quarter);
+        out |= unsigned{is_out(block, quarter)} << i;
+        in &= ~(unsigned{!is_in(block, quarter)} << i);
+      }
     }
-    const auto out = [&](const std::vector<Edge>& block) {
-      return std::ranges::any_of(block, [&](const Edge& e) { return is_out(e, quarter); });
-    };
-    if (std::ranges::all_of(blocks, out)) return;
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const int column = x + static_cast<int>(i % 4) * quarter, row = y + static_cast<int>(i / 4) * quarter;
+    if (out == 0xffff) return;
+    for (int i = 0; i < 16; ++i) {
+      const int column = i % 4 * quarter, row = i / 4 * quarter;
       // A block may be both in and out, and then is in.
-      if (std::ranges::all_of(blocks[i], [&](const Edge& e) { return is_in(e, quarter); })) {
-        fill(column, row, quarter);
-      } else if (!out(blocks[i])) {
-        draw(blocks[i], column, row, quarter);
+      if ((in >> i & 1) != 0) {
+        fill(x + column, y + row, quarter);
+      } else if ((out >> i & 1) == 0) {
+        Edges of_block;
+        for (const Edge& e : edges) of_block.push_back(e.at(column, row));
+        draw(of_block, x + column, y + row, quarter);
       }
     }
   }
 
  private:
-  void draw_samples(const std::vector<Edge>& edges, int x, int y) {
-    for_each_sample(x, y, 4, [&](int column, int row, int sample) {
-      const bool outside = std::ranges::any_of(edges, [&](const Edge& e) {
-        const std::int64_t c = value_at(setting_, e.at(column - x, row - y), sample);
-        return negative_in_32_bits((c - 1) >> kSubpixelBits);
-      });
-      if (!outside) cover(mask_, layout_.bit(column, row, sample));
-    });
+  static constexpr int kSampled = 4;  ///< the side of blocks of which the samples are asked
+
+  /// Of an edge whose value's 32-bit sign is the same at all four corners of the block, that of all samples is, as long
+  /// as no further wrap lies between: if all bits from the sign's on are.
+  void draw_samples(const Edges& edges, int x, int y) {
+    constexpr int kSignBit = 31 + kSubpixelBits;
+    const int columns = std::min(kSampled, setting_.target.width - x);
+    const int rows = std::min(kSampled, setting_.target.height - y);
+    Edges asked;
+    for (const Edge& e : edges) {
+      const std::int64_t across = std::min<std::int64_t>(e.a, 0) + std::min<std::int64_t>(e.b, 0);
+      const std::int64_t back = std::max<std::int64_t>(e.a, 0) + std::max<std::int64_t>(e.b, 0);
+      const std::int64_t least = (e.c - 1 + kSampled * kPixel * across) >> kSignBit;
+      const std::int64_t most = (e.c - 1 + kSampled * kPixel * back) >> kSignBit;
+      if (least != most) {
+        asked.push_back(e);
+      } else if ((least & 1) != 0) {
+        return;
+      }
+    }
+    if (asked.empty()) return fill(x, y, kSampled);
+    for (int sample = 0; sample < setting_.samples(); ++sample) {
+      std::uint32_t outside = 0;
+      for (const Edge& e : asked) {
+        const std::int64_t first = value_at(setting_, e, sample) - 1;
+        for (int i = 0; i < kSampled * kSampled; ++i) {
+          const std::int64_t c = first + (e.a * (i % kSampled) + e.b * (i / kSampled)) * kPixel;
+          outside |= static_cast<std::uint32_t>(c >> kSignBit & 1) << i;
+        }
+      }
+      for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+          if ((outside >> (row * kSampled + column) & 1) == 0) cover(mask_, layout_.bit(x + column, y + row, sample));
+        }
+      }
+    }
   }
 
   void fill(int x, int y, int size) {
-    for_each_sample(x, y, size,
-                    [&](int column, int row, int sample) { cover(mask_, layout_.bit(column, row, sample)); });
-  }
-
-  template <class Visit>
-  void for_each_sample(int x, int y, int size, Visit&& visit) {
-    for (int row = y; row < std::min(y + size, setting_.target.height); ++row)
-      for (int column = x; column < std::min(x + size, setting_.target.width); ++column)
-        for (int sample = 0; sample < setting_.samples(); ++sample) visit(column, row, sample);
+    const int end = std::min(x + size, setting_.target.width);
+    for (int row = y; row < std::min(y + size, setting_.target.height); ++row) {
+      if (x < end) cover_span(mask_, layout_.bit(x, row, 0), layout_.bit(end, row, 0));
+    }
   }
 
   const Setting& setting_;
@@ -146,6 +179,25 @@ struct Reach {
   bool far() const { return huge | by_four; }
 };
 
+/// Whether an edge has a value within the tile that 32 bits do not hold once it is shifted: then they are what the
+/// rules go by, and the scissor's. Values are greatest and least in the tile's corners; 4 makes up for all that is
+/// shifted.
+bool wraps(const std::array<Edge, 3>& edges) {
+  constexpr std::int64_t kFits = (std::int64_t{1} << 31) - 4;
+  return std::ranges::any_of(edges, [](const Edge& e) {
+    const std::int64_t c = e.c >> kSubpixelBits;
+    const std::int64_t least = std::min<std::int64_t>(e.a, 0) + std::min<std::int64_t>(e.b, 0);
+    const std::int64_t most = std::max<std::int64_t>(e.a, 0) + std::max<std::int64_t>(e.b, 0);
+    return c + kTile * least < -kFits || c + kTile * most > kFits;
+  });
+}
+
+bool wraps_by_four(const Setting& setting, const std::array<Edge, 3>& edges) {
+  const auto columns = std::min(kBlock, setting.target.width) - 1, rows = std::min(kBlock, setting.target.height) - 1;
+  return std::ranges::any_of(
+      edges, [&](const Edge& e) { return e.at(e.a > 0 ? columns : 0, e.b > 0 ? rows : 0).c > std::int64_t{1} << 29; });
+}
+
 }  // namespace
 
 bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle) {
@@ -155,10 +207,9 @@ bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle) {
   if (!points) return false;
   const Box box = box_of(setting, *points);
   if (box.right < 0 || box.bottom < 0 || box.right >= kTile || box.bottom >= kTile) return false;
-  if (extent(box) <= kMostShort) return reach.by_four && may_wrap_by_four(setting, box);
-  // The most that an edge's value can come to within the tile, in pixels.
-  const std::int64_t columns = box.right - box.left + 1, rows = box.bottom - box.top + 1;
-  return rows * (columns + kTile) + columns * (rows + kTile) >= std::int64_t{1} << (31 - kSubpixelBits);
+  const auto edges = edges_of(setting, *points);
+  if (extent(box) > kMostShort) return wraps(edges);
+  return reach.by_four && may_wrap_by_four(setting, box) && wraps_by_four(setting, edges);
 }
 
 // With extents of at most 88 px neither limit of Reach is reached: 153^2 is below 2^22, and 89^2 below 2^13.
@@ -174,9 +225,9 @@ void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, Mut
   const auto points = snapped_points(setting, triangle);
   if (!points || is_culled(setting, area_of(*points))) return;
   const Box box = box_of(setting, *points), scissor = scissor_of(setting);
-  if (!meet(box, scissor)) return;
+  if (intersection(box, scissor).empty()) return;
   const auto of_triangle = edges_of(setting, *points);
-  std::vector<Edge> edges(of_triangle.begin(), of_triangle.end());
+  Edges edges(of_triangle.begin(), of_triangle.end());
   append_scissor_edges(setting, box, scissor, edges);
   if (extent(box) <= kMostShort) return draw_by_four(setting, edges, mask);
   Tile(setting, mask).draw(edges, 0, 0, kTile);

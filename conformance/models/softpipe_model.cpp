@@ -41,16 +41,6 @@ struct Edge {
   }
 };
 
-// Sets columns from `left` to `right` - 1 of one row.
-void cover_span(MutableMaskView row, int left, int right) {
-  for (int word = left / 64; word * 64 < right; ++word) {
-    const int from = std::max(left - word * 64, 0);
-    const int to = std::min(right - word * 64, 64);
-    const std::uint64_t up_to = to == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << to) - 1;
-    row[static_cast<std::size_t>(word)] |= up_to & ~std::uint64_t{0} << from;
-  }
-}
-
 // The rows that `left` and `right` bound together; moves both edges past them.
 void fill(Edge& left, Edge& right, int rows, const MaskLayout& layout, MutableMaskView mask) {
   const int first = truncated(left.first_row);
@@ -59,8 +49,7 @@ void fill(Edge& left, Edge& right, int rows, const MaskLayout& layout, MutableMa
   for (int y = begin; y < end; ++y) {
     const int from = std::max(truncated(left.at(y - first)), 0);
     const int to = std::min(truncated(right.at(y - first)), layout.target.width);
-    if (from < to)
-      cover_span(mask.subspan(static_cast<std::size_t>(y) * layout.row_words(), layout.row_words()), from, to);
+    if (from < to) cover_span(mask, layout.bit(from, y, 0), layout.bit(to, y, 0));
   }
   left.advance(rows);
   right.advance(rows);

@@ -130,14 +130,16 @@ struct AxisTransform {
   }
 };
 
-/// Where the vertex lies in the window, in px, before any snap.
-float in_window(const AxisTransform& axis, MultiplyAdd multiply_add, float clip, float inverse_w);
+struct Transformed {
+  float snapped = 0;  ///< a multiple of 2^-bits px
+  float window = 0;   ///< px, before any snap
+};
 
-/// Where the vertex is snapped to, as a multiple of 2^-bits px, when its homogeneous coordinate is `clip` and
-/// `inverse_w` is 1 / w rounded. `multiply_add` is given apart because vertices from clipping differ in it. Nothing if
-/// the result is not finite or the grid has no such point in binary32.
-std::optional<float> transformed(const TransformModel& model, const AxisTransform& axis, MultiplyAdd multiply_add,
-                                 bool multisampled, float clip, float inverse_w);
+/// Where the vertex is taken to when its homogeneous coordinate is `clip` and `inverse_w` is 1 / w rounded.
+/// `multiply_add` is given apart because vertices from clipping differ in it. Nothing if the result is not finite or
+/// the grid has no such point in binary32.
+std::optional<Transformed> transformed(const TransformModel& model, const AxisTransform& axis, MultiplyAdd multiply_add,
+                                       bool multisampled, float clip, float inverse_w);
 
 /// `position` on the grid, as the model snaps a window coordinate that passes the viewport transform unchanged
 /// (enclosing_viewport.h). Nothing if it is not finite or the grid has no such point in binary32.

@@ -76,8 +76,9 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene) {
                      .takes_away = {},
                      .region = DrawnRegion(model, setting, viewport)};
   result.scene.setting.cull = CullMode::none;
-  if (setting.scissor || result.region.reach() != Rect{0, 0, setting.target.width, setting.target.height}) {
-    result.scene.setting.scissor = result.region.reach();
+  const ScissorReach& reach = result.region.reach();
+  if (setting.scissor || reach.all() != Rect{0, 0, setting.target.width, setting.target.height}) {
+    result.scene.setting.scissor = reach.all();
   }
   std::vector<Triangle>& out = result.scene.triangles;
   std::vector<WindowTriangle> parts;
@@ -91,7 +92,7 @@ WindowScene window_scene(const TransformModel& model, const Scene& scene) {
     if (!turn) result.unpredicted.push_back(i);
     for (const auto& [part, turn_before_snap] : parts) {
       const bool as_whole = viewport != nullptr && model.winding == Winding::binary32_before_clipping;
-      if (!result.region.meets(part) || culled(setting, as_whole ? *turn : turn_of(part))) continue;
+      if (!reach.meets(part) || culled(setting, as_whole ? *turn : turn_of(part))) continue;
       if (viewport != nullptr && twice[i] && culled_before_snap(setting, turn_before_snap)) continue;
       out.push_back(part);
       const Turn adds = *turn == Turn::none ? Turn::clockwise : *turn;

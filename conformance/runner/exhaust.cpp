@@ -124,19 +124,24 @@ class Exhauster {
   }
 
   tl::expected<void, Error> confirm(std::size_t i) {
-    const auto width = static_cast<std::size_t>(plan_.target.width);
-    scratch_.resize(static_cast<std::size_t>(plan_.target.height));
-    for (std::size_t y = 0; y < scratch_.size(); ++y) {
-      const std::uint64_t row = width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
-      scratch_[y] = must_[i] >> (y * width) & row;
-    }
+    unpack(must_[i]);
     return reference_.confirm(scene_, i, scratch_);
   }
 
   std::uint64_t predicted(std::size_t i) {
-    scratch_.resize(static_cast<std::size_t>(plan_.target.height));
+    unpack(must_[i]);
     plan_.deviation->in_window.predict(scene_.setting, scene_.triangles[i], scratch_);
     return packed(scratch_);
+  }
+
+  // Into scratch_.
+  void unpack(std::uint64_t mask) {
+    const auto width = static_cast<std::size_t>(plan_.target.width);
+    scratch_.resize(static_cast<std::size_t>(plan_.target.height));
+    for (std::size_t y = 0; y < scratch_.size(); ++y) {
+      const std::uint64_t row = width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
+      scratch_[y] = mask >> (y * width) & row;
+    }
   }
 
   const ExhaustPlan& plan_;

@@ -27,7 +27,7 @@ tl::expected<Finding, Error> first_finding(const ExhaustPlan& plan, const Exhaus
   finding.wrong.y = first.y;
   if (auto drawn = (*subject)->draw(finding.scene, finding.observed); !drawn) return tl::unexpected(drawn.error());
   if (plan.deviation != nullptr) {
-    std::vector<std::uint64_t> predicted(finding.observed[0].size());
+    std::vector<std::uint64_t> predicted(finding.expected[0].begin(), finding.expected[0].end());
     plan.deviation->in_window.predict(finding.scene.setting, finding.scene.triangles[0], predicted);
     finding.known = std::ranges::equal(predicted, finding.observed[0]);
   }

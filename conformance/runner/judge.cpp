@@ -97,8 +97,8 @@ tl::expected<void, Error> Judge::compare(const Batch& batch, std::size_t first_t
   return {};
 }
 
-// Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and every
-// wrong one goes to both oracles before anybody is blamed.
+// Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and one that
+// is wrong otherwise than predicted goes to both oracles before anybody is blamed.
 tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
   const MaskLayout layout(batch.scene.setting);
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
@@ -107,10 +107,11 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_ri
     const Comparison comparison = compare_one(layout, batch, expected()[i], observed_[i], i);
     const bool wrong = !comparison.all_right();
     if (!wrong && !concerned) continue;
-    if (wrong && batch.rule_set->exact()) {  // else grant_choices has seen to it
+    const bool known = concerned && as_predicted(batch, i);
+    const bool confirms = wrong && (!known || outcome.known_triangles % kKnownShare == 0);
+    if (confirms && batch.rule_set->exact()) {  // else grant_choices has seen to it
       if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
     }
-    const bool known = concerned && as_predicted(batch, i);
     if (wrong && known) {
       ++outcome.known_triangles;
       add_finding(batch, i, 1, *comparison.first, true, outcome);
@@ -139,30 +140,29 @@ bool Judge::may_deviate(const Scene& scene, std::size_t triangle) const {
 }
 
 bool Judge::as_predicted(const Batch& batch, std::size_t triangle) {
-  predicted_.resize(observed_[triangle].size());
   const Scene& scene = judged_scene(batch);
   if (scene.clip) {
     predict_clipped(triangle);
   } else {
+    predicted_.assign(expected()[triangle].begin(), expected()[triangle].end());
     deviation_->in_window.predict(scene.setting, scene.triangles[triangle], predicted_);
   }
   return std::ranges::equal(predicted_, observed_[triangle]);
 }
 
-// Each of the triangles that clipping left as the deviation has it, within the scissor that the driver itself is given,
-// where it concerns them, and as the rules have it where it does not. What a triangle gains by deviating may lie beyond
-// the scissor: only the others are filtered. Of drivers that deviate so, none fills the outline as a whole.
+// Each of the triangles that clipping left as the rules and the scissor that the driver itself is given have it, or as
+// the deviation does: what a triangle gains by that may lie beyond the scissor. Of drivers that deviate so, none fills
+// the outline as a whole.
 void Judge::predict_clipped(std::size_t triangle) {
   const WindowScene& window = reference_.window();
   Setting setting = window.scene.setting;
-  setting.scissor = window.region.scissor();
-  std::ranges::fill(predicted_, 0);
+  setting.scissor = window.region.reach().told();
+  predicted_.assign(observed_[triangle].size(), 0);
   for (std::size_t i = window.first[triangle]; i < window.first[triangle + 1]; ++i) {
     part_.assign(reference_.part(i).begin(), reference_.part(i).end());
+    window.region.filter(part_);
     if (deviation_->of_part.may_concern(setting, window.scene.triangles[i])) {
       deviation_->of_part.predict(setting, window.scene.triangles[i], part_);
-    } else {
-      window.region.filter(part_);
     }
     std::ranges::transform(predicted_, part_, predicted_.begin(), std::bit_or<>());
   }

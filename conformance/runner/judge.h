@@ -77,6 +77,11 @@ struct Outcome {
 /// of kOracleShare triangles; this looks in many more, in another way, and without a rule.
 inline constexpr std::uint64_t kMeshShare = 16;
 
+/// One in this many triangles that are wrong as a known deviation's model predicts is given to both oracles; of all
+/// other wrong ones, every one. Two answers agree on each of its samples already, the subject's and the model's, and
+/// both start from the rules that the oracles' share of all triangles confirms.
+inline constexpr std::uint64_t kKnownShare = 16;
+
 class Judge {
  public:
   /// `deviation` may be null. Keeps the references.

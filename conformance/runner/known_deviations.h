@@ -17,7 +17,7 @@ namespace edgecase::conformance {
 struct DeviationModel {
   /// Whether it may predict anything but what the rules say of that triangle; null if it replaces the rules.
   bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
-  /// Writes every word of the mask that the subject is predicted to draw.
+  /// Turns the mask that the rules ask for into the one that the subject is predicted to draw.
   void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
   /// Whether it may concern any of them. May say yes where it does not; null always does.
   bool (*concerns_any)(const Setting& setting, std::span<const Triangle> triangles) = nullptr;

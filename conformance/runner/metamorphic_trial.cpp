@@ -139,10 +139,9 @@ class Experimenter {
     if (deviation_ == nullptr) return false;
     const auto follows = [&](const Scene& scene, const MaskBatch& masks, std::size_t i) {
       predicted_.resize(masks[i].size());
+      oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], predicted_);
       if (deviation_->in_window.may_concern(scene.setting, scene.triangles[i])) {
         deviation_->in_window.predict(scene.setting, scene.triangles[i], predicted_);
-      } else {
-        oracle::cover_by_definition(scene.setting, scene.rules, scene.triangles[i], predicted_);
       }
       return std::ranges::equal(predicted_, masks[i]);
     };

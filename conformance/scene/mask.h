@@ -48,6 +48,17 @@ using MutableMaskView = std::span<std::uint64_t>;
 
 inline bool covered(MaskView mask, std::size_t bit) { return (mask[bit / 64] >> (bit % 64) & 1) != 0; }
 inline void cover(MutableMaskView mask, std::size_t bit) { mask[bit / 64] |= std::uint64_t{1} << (bit % 64); }
+/// Bits `begin` to `end - 1`.
+inline void cover_span(MutableMaskView mask, std::size_t begin, std::size_t end) {
+  if (begin >= end) return;
+  const std::size_t last = (end - 1) / 64;
+  std::uint64_t bits = ~std::uint64_t{0} << (begin % 64);
+  for (std::size_t word = begin / 64; word < last; ++word) {
+    mask[word] |= bits;
+    bits = ~std::uint64_t{0};
+  }
+  mask[last] |= bits & ~std::uint64_t{0} >> (63 - (end - 1) % 64);
+}
 
 /// Masks of equal layout, one after the other, owned elsewhere: mask i is that of triangle i.
 class MaskBatchView {

@@ -103,7 +103,7 @@ inline Tally compared(const MaskBatch& found, const TransformModel& model, const
   MaskBatch parts = drawn(*exact, window.scene);
   const bool llvmpipe = model.name != swiftshader_model().name;
   // Where the scissor is loose, what wraps is left to the runs, which draw each part within the scissor itself.
-  const bool loose = window.region.scissor() != window.region.reach();
+  const bool loose = window.region.reach().told() != window.region.reach().all();
   std::vector<bool> wraps(window.size());
   for (std::size_t i = 0; llvmpipe && i < window.size(); ++i) {
     for (std::size_t p = window.first[i]; p < window.first[i + 1]; ++p) {

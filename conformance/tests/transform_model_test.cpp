@@ -45,8 +45,8 @@ TEST(TransformModel, FusedAndSeparateDifferWhereTheProductIsInexact) {
   const AxisTransform axis{1 + 0x1p-12F, -1 - 0x1p-11F + 0x1p-9F};
   TransformModel model = lavapipe_model();
   model.shift = HalfPixelShift::none;
-  EXPECT_EQ(transformed(model, axis, MultiplyAdd::separate, false, 1 + 0x1p-12F, 1), 0);
-  EXPECT_EQ(transformed(model, axis, MultiplyAdd::fused, false, 1 + 0x1p-12F, 1), 0x1p-8F);
+  EXPECT_EQ(transformed(model, axis, MultiplyAdd::separate, false, 1 + 0x1p-12F, 1)->snapped, 0);
+  EXPECT_EQ(transformed(model, axis, MultiplyAdd::fused, false, 1 + 0x1p-12F, 1)->snapped, 0x1p-8F);
 }
 
 TEST(TransformModel, RoundingRulesDifferOnTies) {
@@ -125,7 +125,7 @@ TEST(ClipModel, SaysWhereItDoesNotReach) {
 std::vector<std::string> rows(const DrawnRegion& region, const Setting& setting) {
   const MaskLayout layout(setting);
   std::vector<std::uint64_t> mask(layout.words());
-  const Rect& reach = region.reach();
+  const Rect& reach = region.reach().all();
   for (int y = reach.y; y < reach.y + reach.height; ++y) {
     for (int x = reach.x; x < reach.x + reach.width; ++x) {
       for (int s = 0; s < layout.samples; ++s) cover(mask, layout.bit(x, y, s));
@@ -152,17 +152,17 @@ TEST(DrawnRegion, MultisampledScissorOfLlvmpipeLetsHalfAPixelThrough) {
   const DrawnRegion region(lavapipe_model(), setting, nullptr);
   EXPECT_THAT(rows(region, setting),
               ElementsAre(".... ...# ..## .... ", ".... .#.# #### .... ", ".... .#.# #### .... "));
-  EXPECT_FALSE(region.meets({{{0, 1}, {2, 1}, {0, 3}}})) << "it lies in the pixels left of the scissor";
-  EXPECT_TRUE(region.meets({{{0, 1}, {2.25F, 1}, {0, 3}}}));
+  EXPECT_FALSE(region.reach().meets({{{0, 1}, {2, 1}, {0, 3}}})) << "it lies in the pixels left of the scissor";
+  EXPECT_TRUE(region.reach().meets({{{0, 1}, {2.25F, 1}, {0, 3}}}));
 }
 
 TEST(DrawnRegion, ViewportsHideWhatTheirRoundedEndsLeaveOut) {
   const Setting setting = setting_of(8, 8);
   const Viewport viewport{1.501F, 1.499F, 4.0F, 4.003F};  // to 5.501 and 5.502
-  EXPECT_EQ(DrawnRegion(lavapipe_model(), setting, &viewport).reach(), (Rect{2, 1, 4, 5}));
-  EXPECT_EQ(DrawnRegion(osmesa_llvmpipe_model(), setting, &viewport).reach(), (Rect{0, 0, 8, 8}));
+  EXPECT_EQ(ScissorReach(lavapipe_model(), setting, &viewport).all(), (Rect{2, 1, 4, 5}));
+  EXPECT_EQ(ScissorReach(osmesa_llvmpipe_model(), setting, &viewport).all(), (Rect{0, 0, 8, 8}));
   const Viewport flipped{0.5F, 5.5F, 4, -4};
-  EXPECT_EQ(DrawnRegion(lavapipe_model(), setting, &flipped).reach(), (Rect{0, 1, 4, 4}));
+  EXPECT_EQ(ScissorReach(lavapipe_model(), setting, &flipped).all(), (Rect{0, 1, 4, 4}));
 }
 
 // A sliver whose turned-over part takes away a sample that the other part adds.
