@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -32,21 +34,18 @@ struct Corner {
   Vector at;
   bool border;  ///< whether the edge that begins here borders on nothing
 };
-using Polygon = std::vector<Corner>;
+// A triangle that six planes have cut.
+using Polygon = boost::container::static_vector<Corner, 9>;
 
-// Positions by number, so that edges can be compared as those of a grid are.
-class Vertices {
- public:
-  GridPoint number(const ClipPosition& p) {
-    const std::array key{p.x, p.y, p.z, p.w};
-    return {numbers_.try_emplace(key, static_cast<std::int64_t>(numbers_.size())).first->second, 0};
-  }
-
- private:
-  std::map<std::array<float, 4>, std::int64_t> numbers_;
-};
+// The position's 128 bits as a point, so that edges can be compared as those of a grid are; -0 as 0.
+GridPoint as_point(const ClipPosition& p) {
+  const auto bits = [](float v) { return std::uint64_t{std::bit_cast<std::uint32_t>(v + 0.0F)}; };
+  return {std::bit_cast<std::int64_t>(bits(p.x) << 32 | bits(p.y)),
+          std::bit_cast<std::int64_t>(bits(p.z) << 32 | bits(p.w))};
+}
 
 Polygon cut(const Polygon& polygon, const Vector& plane) {
+  if (std::ranges::none_of(polygon, [&](const Corner& corner) { return dot(corner.at, plane) < 0; })) return polygon;
   Polygon result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Corner& a = polygon[i];
@@ -63,6 +62,15 @@ Polygon cut(const Polygon& polygon, const Vector& plane) {
   return result;
 }
 
+// Whether every vertex lies further than `margin` inside of every plane.
+bool wholly_inside(NearPlane near, const ClipTriangle& triangle, double margin) {
+  return std::ranges::all_of(triangle, [&](const ClipPosition& p) {
+    const double w = p.w;
+    const double below = near == NearPlane::zero ? double{p.z} : w + p.z;
+    return std::min({w - std::abs(double{p.x}), w - std::abs(double{p.y}), below, w - p.z}) > margin;
+  });
+}
+
 // What can be seen of each triangle. An edge is on the border if the mesh has no neighbour there, or if it lies in a
 // plane, because that has cut it or because the neighbour is wholly beyond.
 struct Seen {
@@ -73,27 +81,38 @@ struct Seen {
 
 Seen seen(NearPlane near, std::span<const ClipTriangle> mesh) {
   Seen result;
-  Vertices vertices;
-  std::vector<GridTriangle> numbered;
   for (const ClipTriangle& t : mesh) {
-    numbered.push_back({vertices.number(t[0]), vertices.number(t[1]), vertices.number(t[2])});
     for (const ClipPosition& p : t) {
       for (const float v : {p.x, p.y, p.z, p.w}) result.greatest = std::max(result.greatest, std::abs(double{v}));
     }
   }
+  std::vector<GridTriangle> points;
+  points.reserve(mesh.size());
+  for (const ClipTriangle& t : mesh) points.push_back({as_point(t[0]), as_point(t[1]), as_point(t[2])});
   OutlineBuilder builder;
-  const auto outline = builder.build(numbered);
+  const auto outline = builder.build(points);
   const double in_plane = std::ldexp(result.greatest, -20);
+  result.polygons.reserve(mesh.size());
+  const auto add = [&](const Polygon& polygon) {
+    double least_w = polygon.front().at[3];
+    for (const Corner& corner : polygon) least_w = std::min(least_w, corner.at[3]);
+    result.least_w = result.polygons.empty() ? least_w : std::min(result.least_w, least_w);
+    result.polygons.push_back(polygon);
+  };
   const auto planes = planes_of(near);
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     Polygon polygon;
     for (std::size_t v = 0; v < 3; ++v) {
-      const GridPoint from = numbered[i][v];
-      const GridPoint to = numbered[i][(v + 1) % 3];
+      const GridPoint from = points[i][v];
+      const GridPoint to = points[i][(v + 1) % 3];
       const bool border =
           std::ranges::any_of(outline, [&](const OutlineEdge& edge) { return edge.from == from && edge.to == to; });
       const ClipPosition& p = mesh[i][v];
       polygon.push_back({{p.x, p.y, p.z, p.w}, border});
+    }
+    if (wholly_inside(near, mesh[i], in_plane)) {
+      add(polygon);
+      continue;
     }
     for (const Vector& plane : planes) polygon = cut(polygon, plane);
     for (const Vector& plane : planes) {
@@ -105,11 +124,7 @@ Seen seen(NearPlane near, std::span<const ClipTriangle> mesh) {
         polygon[k].border = polygon[k].border || lies_in;
       }
     }
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const double w = polygon[k].at[3];
-      result.least_w = result.polygons.empty() && k == 0 ? w : std::min(result.least_w, w);
-    }
-    if (!polygon.empty()) result.polygons.push_back(std::move(polygon));
+    if (!polygon.empty()) add(polygon);
   }
   return result;
 }
@@ -131,85 +146,188 @@ struct Point {
   double y;
 };
 
-// Positive to the right of a -> b on the screen, y down.
-double side(const Point& a, const Point& b, const Point& p) {
-  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+// From where to where on one row; nothing if that is the wrong way round.
+struct Interval {
+  double from;
+  double to;
+
+  Interval grown(double by) const { return {from - by, to + by}; }
+  friend Interval meet(const Interval& a, const Interval& b) {
+    return {std::max(a.from, b.from), std::min(a.to, b.to)};
+  }
+};
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+constexpr Interval kNowhere{kEverywhere, -kEverywhere};
+
+// More than what rounding can do to a point of the window, and much less than a border's error.
+constexpr double kRounding = 0x1p-20;
+
+Interval extent(std::span<const Point> points, double Point::*of) {
+  const auto [least, greatest] = std::ranges::minmax(points, {}, of);
+  return {least.*of, greatest.*of};
 }
 
-// Whether the square of `reach` around p is off the edge: beyond its bounding box, or wholly on one side of its line.
-bool off(const Point& a, const Point& b, const Point& p, double reach) {
-  const auto [left, right] = std::minmax(a.x, b.x);
-  const auto [top, bottom] = std::minmax(a.y, b.y);
-  return p.x + reach < left || p.x - reach > right || p.y + reach < top || p.y - reach > bottom ||
-         std::abs(side(a, b, p)) > reach * (right - left + bottom - top);
-}
+// An edge, from its upper end down if it has one, so that neighbours see the same.
+struct Line {
+  Point upper;
+  Point lower;
 
-// Pixels first .. end - 1 of one axis.
+  Line(const Point& a, const Point& b) : upper(a.y <= b.y ? a : b), lower(a.y <= b.y ? b : a) {}
+  double slope() const { return (lower.x - upper.x) / (lower.y - upper.y); }
+};
+
+// A convex polygon, row by row.
+class Rows {
+ public:
+  explicit Rows(std::span<const Point> polygon)
+      : x_(extent(polygon, &Point::x).grown(kRounding)), y_(extent(polygon, &Point::y)) {
+    double area = 0;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Point& a = polygon[k];
+      const Point& b = polygon[(k + 1) % polygon.size()];
+      area += (a.x - polygon[0].x) * (b.y - polygon[0].y) - (a.y - polygon[0].y) * (b.x - polygon[0].x);
+      if (a.y != b.y) sides_.push_back({Line(a, b), Line(a, b).slope(), b.y > a.y});
+    }
+    has_area_ = area != 0;
+    for (Side& side : sides_) side.bounds_right ^= area < 0;
+  }
+
+  const Interval& y() const { return y_; }
+
+  // What it holds of a row, border and kRounding included. Beyond the polygon's box, where lines that nearly meet could
+  // go on together, it holds nothing.
+  Interval at(double y) const {
+    if (!has_area_ || y < y_.from || y > y_.to) return kNowhere;
+    Interval result = x_;
+    for (const auto& [line, slope, bounds_right] : sides_) {
+      const double x = line.upper.x + slope * (y - line.upper.y);
+      if (bounds_right) {
+        result.to = std::min(result.to, x + kRounding);
+      } else {
+        result.from = std::max(result.from, x - kRounding);
+      }
+    }
+    return result;
+  }
+
+ private:
+  struct Side {
+    Line line;
+    double slope;
+    bool bounds_right;
+  };
+  Interval x_;
+  Interval y_;
+  boost::container::static_vector<Side, Polygon::static_capacity> sides_;
+  bool has_area_ = false;
+};
+
+// All around an edge: of its bounding box, grown by `reach`, what a square of that size may touch the line from.
+class Around {
+ public:
+  Around(const Point& a, const Point& b, double reach)
+      : line_(a, b),
+        x_(extent(std::array{a, b}, &Point::x).grown(reach)),
+        y_(extent(std::array{a, b}, &Point::y).grown(reach)) {
+    const double width = std::abs(b.x - a.x), height = line_.lower.y - line_.upper.y;
+    if (height == 0) return;
+    slope_ = line_.slope();
+    half_ = reach * (width + height) / height + kRounding;
+  }
+
+  const Interval& y() const { return y_; }
+
+  Interval at(double y) const {
+    if (y < y_.from || y > y_.to) return kNowhere;
+    const double x = line_.upper.x + slope_ * (y - line_.upper.y);
+    return meet(x_, {x - half_, x + half_});
+  }
+
+ private:
+  Line line_;
+  Interval x_;
+  Interval y_;
+  double slope_ = 0;
+  double half_ = kEverywhere;  ///< of its width on a row, as far as its box allows
+};
+
+// Pixels first .. end - 1 of one axis; none if they are equal.
 struct Range {
   int first;
   int end;
 };
 
+// Those of `all` of which the one point that matters lies in `points`, given from its place in a pixel on.
+Range pixels_between(const Range& all, const Interval& points) {
+  const double first = std::clamp<double>(std::ceil(points.from), all.first, all.end);
+  return {static_cast<int>(first), static_cast<int>(std::clamp<double>(std::floor(points.to) + 1, first, all.end))};
+}
+
 // Those that lie wholly inside the viewport, and in the target.
 Range pixels_inside(float start, float size, int extent) {
-  const double from = std::ceil(double{start} + std::min(0.0, double{size}));
-  const double to = std::floor(double{start} + std::max(0.0, double{size}));
-  return {static_cast<int>(std::clamp(from, 0.0, double{kMaxTargetExtent})),
-          static_cast<int>(std::clamp(to, 0.0, static_cast<double>(extent)))};
+  const double end = double{start} + double{size};
+  return pixels_between({0, extent}, {std::min<double>(start, end), std::max<double>(start, end) - 1});
 }
 
-Range pixels_between(const Range& all, double low, double high) {
-  return {static_cast<int>(std::clamp<double>(std::floor(low), all.first, kMaxTargetExtent)),
-          static_cast<int>(std::clamp<double>(std::floor(high) + 1, 0, all.end))};
-}
-
-// The samples of the pixels that a mesh may be asked to cover.
+// The samples that a mesh may be asked to cover.
 class Samples {
  public:
   Samples(const Setting& setting, const Viewport& viewport)
       : setting_(setting),
+        layout_(setting),
         columns_(pixels_inside(viewport.x, viewport.width, setting.target.width)),
-        rows_(pixels_inside(viewport.y, viewport.height, setting.target.height)) {}
+        rows_(pixels_inside(viewport.y, viewport.height, setting.target.height)) {
+    if (64 % setting.samples() == 0) {
+      for (int bit = 0; bit < 64; bit += setting.samples()) every_pixel_ |= std::uint64_t{1} << bit;
+    }
+    if (!setting.scissor) return;
+    const Rect& r = *setting.scissor;
+    columns_ = pixels_between(columns_, {double(r.x), double(r.x) + r.width - 1});
+    rows_ = pixels_between(rows_, {double(r.y), double(r.y) + r.height - 1});
+  }
 
-  /// Visits those in the pixels around `points`, `margin` on each side.
-  template <typename Visit>
-  void around(std::span<const Point> points, double margin, const Visit& visit) const {
-    const auto [left, right] = std::ranges::minmax(points, {}, &Point::x);
-    const auto [top, bottom] = std::ranges::minmax(points, {}, &Point::y);
-    const Range columns = pixels_between(columns_, left.x - margin, right.x + margin);
-    const Range rows = pixels_between(rows_, top.y - margin, bottom.y + margin);
-    for (int y = rows.first; y < rows.end; ++y) {
-      for (int x = columns.first; x < columns.end; ++x) {
-        if (scissored(x, y)) continue;
-        for (int s = 0; s < setting_.samples(); ++s) {
-          const SampleLocation& at = setting_.sample_locations[static_cast<std::size_t>(s)];
-          visit(x, y, s, Point{x + at.x / 16.0, y + at.y / 16.0});
-        }
+  /// Calls change(word, bits) for the words of a mask in which `area` holds samples, and those.
+  template <class Area, class Change>
+  void in(const Area& area, const Change& change) const {
+    for (int s = 0; s < setting_.samples(); ++s) {
+      const SampleLocation& at = setting_.sample_locations[static_cast<std::size_t>(s)];
+      const double dx = at.x / 16.0, dy = at.y / 16.0;
+      const Range rows = pixels_between(rows_, {area.y().from - dy, area.y().to - dy});
+      for (int row = rows.first; row < rows.end; ++row) {
+        const Interval x = area.at(row + dy);
+        const Range columns = pixels_between(columns_, {x.from - dx, x.to - dx});
+        for_each_word(row, s, columns, change);
       }
     }
   }
 
  private:
-  bool scissored(int x, int y) const {
-    const auto& r = setting_.scissor;
-    return r && (x < r->x || x >= std::int64_t{r->x} + r->width || y < r->y || y >= std::int64_t{r->y} + r->height);
+  // Word by word if each of them begins with a pixel, as it does if samples are a power of two.
+  template <class Change>
+  void for_each_word(int row, int sample, const Range& columns, const Change& change) const {
+    if (every_pixel_ == 0) {
+      for (int column = columns.first; column < columns.end; ++column) {
+        const std::size_t bit = layout_.bit(column, row, sample);
+        change(bit / 64, std::uint64_t{1} << bit % 64);
+      }
+      return;
+    }
+    if (columns.first >= columns.end) return;
+    const std::size_t first = layout_.bit(columns.first, row, 0), last = layout_.bit(columns.end, row, 0) - 1;
+    for (std::size_t word = first / 64; word <= last / 64; ++word) {
+      std::uint64_t bits = every_pixel_ << sample;
+      if (word == first / 64) bits &= ~std::uint64_t{0} << first % 64;
+      if (word == last / 64) bits &= ~std::uint64_t{0} >> (63 - last % 64);
+      change(word, bits);
+    }
   }
 
   const Setting& setting_;
+  MaskLayout layout_;
   Range columns_;
   Range rows_;
+  std::uint64_t every_pixel_ = 0;  ///< the first bit of each in a word; 0 if words begin within pixels
 };
-
-bool holds(std::span<const Point> polygon, const Point& p) {
-  bool right = true;
-  bool left = true;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const double value = side(polygon[k], polygon[(k + 1) % polygon.size()], p);
-    right = right && value >= 0;
-    left = left && value <= 0;
-  }
-  return right != left;  // both: a polygon without area
-}
 
 }  // namespace
 
@@ -233,10 +351,9 @@ bool certainly_inside(const Setting& setting, int subpixel_bits, const Viewport&
   const Seen visible = seen(near, mesh);
   const auto error = error_of(visible, subpixel_bits, viewport);
   if (!error) return false;
-  const MaskLayout layout(setting);
   const Samples samples(setting, viewport);
-  std::vector<std::array<Point, 2>> borders;
-  std::vector<Point> points;
+  std::vector<Around> borders;
+  boost::container::static_vector<Point, Polygon::static_capacity> points;
   for (const Polygon& polygon : visible.polygons) {
     points.clear();
     for (const auto& [at, border] : polygon) {
@@ -244,17 +361,13 @@ bool certainly_inside(const Setting& setting, int subpixel_bits, const Viewport&
                         viewport.y + (at[1] / at[3] + 1) / 2 * viewport.height});
     }
     for (std::size_t k = 0; k < points.size(); ++k) {
-      if (polygon[k].border) borders.push_back({points[k], points[(k + 1) % points.size()]});
+      if (polygon[k].border) borders.emplace_back(points[k], points[(k + 1) % points.size()], *error);
     }
-    samples.around(points, 0, [&](int x, int y, int s, const Point& p) {
-      if (holds(points, p)) cover(inside, layout.bit(x, y, s));
-    });
+    samples.in(Rows({points.data(), points.size()}),
+               [&](std::size_t word, std::uint64_t bits) { inside[word] |= bits; });
   }
-  for (const auto& border : borders) {
-    samples.around(border, *error, [&](int x, int y, int s, const Point& p) {
-      const std::size_t bit = layout.bit(x, y, s);
-      if (!off(border[0], border[1], p, *error)) inside[bit / 64] &= ~(std::uint64_t{1} << bit % 64);
-    });
+  for (const Around& border : borders) {
+    samples.in(border, [&](std::size_t word, std::uint64_t bits) { inside[word] &= ~bits; });
   }
   return true;
 }

@@ -32,6 +32,7 @@ void compare_triangle(const MaskLayout& layout, MaskView must, MaskView may, Mas
   const std::uint64_t wrong_before = total.wrong_samples();
   const std::size_t row_words = layout.row_words();
   for (std::size_t i = 0; i < must.size(); ++i) {
+    if (must[i] == observed[i]) continue;
     const std::uint64_t open = may.empty() ? 0 : may[i];
     const std::uint64_t samples = sample_bits(layout, i % row_words);
     const std::uint64_t missing = must[i] & ~observed[i] & samples;

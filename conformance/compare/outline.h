@@ -32,7 +32,8 @@ struct OutlineEdge {
 /// that is used again from mesh to mesh.
 class OutlineBuilder {
  public:
-  /// The outline of `mesh`, in the order in which its edges first occur; valid until the next call.
+  /// The outline of `mesh`, in the order in which its edges first occur; valid until the next call. Points are only
+  /// told apart here, and may lie anywhere.
   std::span<const OutlineEdge> build(std::span<const GridTriangle> mesh);
 
  private:

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "conformance/generators/families.h"
+#include "conformance/scene/nearest_even.h"
 
 namespace edgecase::conformance::families {
 namespace {
@@ -12,16 +13,16 @@ enum class W { one, positive, either_sign };
 // From -reach to reach; a quarter of them multiples of 1/8, which lie on planes and on each other's edges.
 float ratio(Random& random, float reach) {
   const std::int64_t limit = std::int64_t{1} << 23;
-  const float unit = std::ldexp(static_cast<float>(random.between(-limit, limit)), -23);
+  const float unit = static_cast<float>(random.between(-limit, limit)) * 0x1p-23F;
   const float value = unit * reach;
-  return random.one_in(4) ? std::nearbyint(value * 8) / 8 : value;
+  return random.one_in(4) ? nearest_even(value * 8) / 8 : value;
 }
 
 // Magnitudes from 1/4 to 4.
 float homogeneous(Random& random, W kind) {
   if (kind == W::one) return 1;
-  float w = std::ldexp(1.0F, static_cast<int>(random.between(-2, 1)));
-  if (!random.one_in(4)) w *= 1 + std::ldexp(static_cast<float>(random.between(0, (1 << 23) - 1)), -23);
+  float w = static_cast<float>(1 << random.between(0, 3)) / 4;
+  if (!random.one_in(4)) w *= 1 + static_cast<float>(random.between(0, (1 << 23) - 1)) * 0x1p-23F;
   return w;
 }
 

@@ -61,18 +61,22 @@ bool may_wrap_by_four(const Setting& setting, const Box& box) {
   return sides.size() == 1;
 }
 
-void draw_by_four(const Setting& setting, const Edges& edges, MutableMaskView mask) {
+/// The sign of 4 * (c - 1) in 32 bits is bit 29 of c - 1, of which bit 63 is the sign that the rules ask for.
+void draw_by_four(const Setting& setting, const Edges& edges, const Box& box, MutableMaskView mask) {
   const MaskLayout layout(setting);
-  for (int row = 0; row < std::min(kBlock, setting.target.height); ++row) {
-    const int columns = std::min(kBlock, setting.target.width);
-    std::uint64_t inside = (std::uint64_t{1} << columns) - 1;
+  const auto left = static_cast<int>(box.left), right = static_cast<int>(box.right);
+  for (auto row = static_cast<int>(box.top); row <= static_cast<int>(box.bottom); ++row) {
+    std::array<std::int64_t, kBlock> outside{};
     for (const Edge& e : edges) {
-      std::uint64_t accepted = 0;
-      std::int64_t c = e.at(0, row).c;
-      for (int column = 0; column < columns; ++column, c += e.a * kPixel) {
-        accepted |= std::uint64_t{c > 0 && !negative_in_32_bits(4 * (c - 1))} << column;
+      const std::int64_t first = e.at(0, row).c - 1;
+      for (int column = 0; column < kBlock; ++column) {
+        const std::int64_t value = first + e.a * kPixel * column;
+        outside[static_cast<std::size_t>(column)] |= value >> 63 | value >> 29;
       }
-      inside &= accepted;
+    }
+    std::uint64_t inside = 0;
+    for (int column = left; column <= right; ++column) {
+      inside |= static_cast<std::uint64_t>(~outside[static_cast<std::size_t>(column)] & 1) << column;
     }
     mask[layout.bit(0, row, 0) / 64] = inside;
   }
@@ -224,12 +228,12 @@ void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, Mut
   std::ranges::fill(mask, 0);
   const auto points = snapped_points(setting, triangle);
   if (!points || is_culled(setting, area_of(*points))) return;
-  const Box box = box_of(setting, *points), scissor = scissor_of(setting);
-  if (intersection(box, scissor).empty()) return;
+  const Box box = box_of(setting, *points), scissor = scissor_of(setting), drawn = intersection(box, scissor);
+  if (drawn.empty()) return;
   const auto of_triangle = edges_of(setting, *points);
   Edges edges(of_triangle.begin(), of_triangle.end());
   append_scissor_edges(setting, box, scissor, edges);
-  if (extent(box) <= kMostShort) return draw_by_four(setting, edges, mask);
+  if (extent(box) <= kMostShort) return draw_by_four(setting, edges, drawn, mask);
   Tile(setting, mask).draw(edges, 0, 0, kTile);
 }
 

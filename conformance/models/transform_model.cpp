@@ -3,17 +3,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "conformance/scene/nearest_even.h"
+
 namespace edgecase::conformance {
 namespace {
-
-// Without a call: sums are rounded to nearest even, too, and beside 3 * 2^22 there is no bit for a fraction. A zero
-// loses its sign, which is nothing to a grid point.
-float nearest_even(float value) {
-  constexpr float kMost = 0x1p22F;
-  constexpr float kNoFraction = 3 * 0x1p22F;
-  if (!(std::abs(value) < kMost)) return std::nearbyint(value);
-  return (value + kNoFraction) - kNoFraction;
-}
 
 float rounded(SnapRounding rounding, float value) {
   switch (rounding) {
@@ -43,14 +36,24 @@ HalfPixelShift shift_of(const TransformModel& model, bool multisampled) {
   return multisampled ? model.multisample_shift : model.shift;
 }
 
-// `scaled`: in subpixels, from a pixel's corner or, after a shift, from its centre.
-std::optional<float> on_grid(const TransformModel& model, HalfPixelShift shift, float scaled) {
+// Of any number; see on_grid().
+[[gnu::noinline]] std::optional<float> checked_on_grid(const TransformModel& model, double from_corner, float scaled) {
   const auto scale = static_cast<double>(grid_scale(model));
-  const double from_corner = shift == HalfPixelShift::none ? 0 : scale / 2;
   const double grid = static_cast<double>(rounded(model.rules.rounding, scaled)) + from_corner;
   const auto result = static_cast<float>(grid / scale);
   if (!std::isfinite(result) || static_cast<double>(result) * scale != grid) return std::nullopt;
   return result;
+}
+
+// `scaled`: in subpixels, from a pixel's corner or, after a shift, from its centre. Within 2^22 of the origin a point
+// of the grid, or one half a subpixel beside it as there may be without any subpixel bits, has no more than 24 bits.
+inline std::optional<float> on_grid(const TransformModel& model, HalfPixelShift shift, float scaled) {
+  const float scale = grid_scale(model);
+  const float from_corner = shift == HalfPixelShift::none ? 0 : scale / 2;
+  if (model.rules.rounding != SnapRounding::nearest_even || !(std::abs(scaled) + scale < 0x1p22F)) {
+    return checked_on_grid(model, static_cast<double>(from_corner), scaled);
+  }
+  return (nearest_even(scaled) + from_corner) / scale;
 }
 
 std::optional<float> window_on_grid(const TransformModel& model, HalfPixelShift shift, float window) {

@@ -80,7 +80,7 @@ inline constexpr std::uint64_t kMeshShare = 16;
 /// One in this many triangles that are wrong as a known deviation's model predicts is given to both oracles; of all
 /// other wrong ones, every one. Two answers agree on each of its samples already, the subject's and the model's, and
 /// both start from the rules that the oracles' share of all triangles confirms.
-inline constexpr std::uint64_t kKnownShare = 16;
+inline constexpr std::uint64_t kKnownShare = 64;
 
 class Judge {
  public:
@@ -100,8 +100,10 @@ class Judge {
   const Scene& judged_scene(const Batch& batch) const { return window_ ? *window_ : batch.scene; }
   /// Whether the rules alone say what each triangle has to cover.
   bool is_plain(const Batch& batch) const;
-  /// Makes observed_ what drawn_ is.
-  void observe() { observed_ = drawn_.whole(scratch_); }
+  /// Makes observed_ what drawn_ is, if it is not yet.
+  void observe() {
+    if (observed_.size() == 0) observed_ = drawn_.whole(scratch_);
+  }
   /// Compares mask by mask.
   tl::expected<void, Error> compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// The masks that the last batch should have.
