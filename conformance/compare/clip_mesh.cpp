@@ -6,6 +6,7 @@
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -62,15 +63,6 @@ Polygon cut(const Polygon& polygon, const Vector& plane) {
   return result;
 }
 
-// Whether every vertex lies further than `margin` inside of every plane.
-bool wholly_inside(NearPlane near, const ClipTriangle& triangle, double margin) {
-  return std::ranges::all_of(triangle, [&](const ClipPosition& p) {
-    const double w = p.w;
-    const double below = near == NearPlane::zero ? double{p.z} : w + p.z;
-    return std::min({w - std::abs(double{p.x}), w - std::abs(double{p.y}), below, w - p.z}) > margin;
-  });
-}
-
 // What can be seen of each triangle. An edge is on the border if the mesh has no neighbour there, or if it lies in a
 // plane, because that has cut it or because the neighbour is wholly beyond.
 struct Seen {
@@ -110,12 +102,13 @@ Seen seen(NearPlane near, std::span<const ClipTriangle> mesh) {
       const ClipPosition& p = mesh[i][v];
       polygon.push_back({{p.x, p.y, p.z, p.w}, border});
     }
-    if (wholly_inside(near, mesh[i], in_plane)) {
-      add(polygon);
-      continue;
-    }
-    for (const Vector& plane : planes) polygon = cut(polygon, plane);
-    for (const Vector& plane : planes) {
+    // What lies further than that inside of a plane is neither cut by it nor borders on it.
+    boost::container::static_vector<Vector, 6> near_planes;
+    std::ranges::copy_if(planes, std::back_inserter(near_planes), [&](const Vector& plane) {
+      return std::ranges::any_of(polygon, [&](const Corner& corner) { return dot(corner.at, plane) <= in_plane; });
+    });
+    for (const Vector& plane : near_planes) polygon = cut(polygon, plane);
+    for (const Vector& plane : near_planes) {
       // A polygon that lies in the plane as a whole is not cut there.
       if (std::ranges::all_of(polygon, [&](const Corner& corner) { return dot(corner.at, plane) == 0; })) continue;
       for (std::size_t k = 0; k < polygon.size(); ++k) {

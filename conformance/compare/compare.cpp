@@ -27,9 +27,10 @@ std::uint64_t open_samples(const MaskLayout& layout, MaskView must, MaskView may
   return open;
 }
 
-void compare_triangle(const MaskLayout& layout, MaskView must, MaskView may, MaskView observed, std::size_t triangle,
-                      Comparison& total) {
-  const std::uint64_t wrong_before = total.wrong_samples();
+/// Returns the first wrong sample.
+std::optional<WrongSample> compare_triangle(const MaskLayout& layout, MaskView must, MaskView may, MaskView observed,
+                                            std::size_t triangle, Comparison& total) {
+  std::optional<WrongSample> first;
   const std::size_t row_words = layout.row_words();
   for (std::size_t i = 0; i < must.size(); ++i) {
     if (must[i] == observed[i]) continue;
@@ -41,15 +42,16 @@ void compare_triangle(const MaskLayout& layout, MaskView must, MaskView may, Mas
     if (wrong == 0) continue;
     total.missing += count(missing);
     total.unexpected += count(unexpected);
-    if (!total.first) {
-      const auto bit = static_cast<std::size_t>(std::countr_zero(wrong));
-      const auto [x, y, sample] = sample_index(layout, i * 64 + bit);
-      const bool is_missing = (missing >> bit & 1) != 0;
-      total.first =
-          WrongSample{is_missing ? WrongSample::Kind::missing : WrongSample::Kind::unexpected, triangle, x, y, sample};
-    }
+    if (first) continue;
+    const auto bit = static_cast<std::size_t>(std::countr_zero(wrong));
+    const auto [x, y, sample] = sample_index(layout, i * 64 + bit);
+    const bool is_missing = (missing >> bit & 1) != 0;
+    first = {is_missing ? WrongSample::Kind::missing : WrongSample::Kind::unexpected, triangle, x, y, sample};
   }
-  if (total.wrong_samples() != wrong_before) ++total.wrong_triangles;
+  if (!first) return std::nullopt;
+  ++total.wrong_triangles;
+  if (!total.first) total.first = first;
+  return first;
 }
 
 }  // namespace
@@ -82,7 +84,8 @@ void Comparison::add(const Comparison& later) {
 }
 
 void compare_masks(const MaskLayout& layout, std::span<const std::uint64_t> must, std::span<const std::uint64_t> may,
-                   std::span<const std::uint64_t> observed, std::size_t first_triangle, Comparison& total) {
+                   std::span<const std::uint64_t> observed, std::size_t first_triangle, Comparison& total,
+                   std::vector<WrongSample>* firsts) {
   const std::size_t words = layout.words();
   const std::size_t triangles = must.size() / words;
   assert(must.size() == triangles * words && observed.size() == must.size());
@@ -98,9 +101,9 @@ void compare_masks(const MaskLayout& layout, std::span<const std::uint64_t> must
     const MaskView open = may.empty() ? MaskView{} : may.subspan(i * words, words);
     const MaskView seen = observed.subspan(i * words, words);
     if (!open.empty()) total.samples_compared -= open_samples(layout, expected, open);
-    if (!batch_equal && !equal(expected, seen)) {
-      compare_triangle(layout, expected, open, seen, first_triangle + i, total);
-    }
+    if (batch_equal || equal(expected, seen)) continue;
+    const auto first = compare_triangle(layout, expected, open, seen, first_triangle + i, total);
+    if (first && firsts != nullptr) firsts->push_back(*first);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "conformance/scene/mask.h"
 
@@ -58,8 +59,10 @@ struct Comparison {
 /// Each span holds whole masks in `layout`, one after the other, as MaskBatch::data() gives them; `must` and `observed`
 /// are equally long, and `may` as well unless it is empty. A sample in `must` has to be covered. One in `may` but not
 /// in `must` is left open, and any other has to stay uncovered. Padding bits are no samples: whatever they hold is
-/// ignored. `first_triangle` is the index that the first mask's triangle has in the report.
+/// ignored. `first_triangle` is the index that the first mask's triangle has in the report. `firsts`, if given, gets
+/// the first wrong sample of each wrong triangle appended.
 void compare_masks(const MaskLayout& layout, std::span<const std::uint64_t> must, std::span<const std::uint64_t> may,
-                   std::span<const std::uint64_t> observed, std::size_t first_triangle, Comparison& total);
+                   std::span<const std::uint64_t> observed, std::size_t first_triangle, Comparison& total,
+                   std::vector<WrongSample>* firsts = nullptr);
 
 }  // namespace edgecase::conformance

@@ -21,36 +21,50 @@ struct ClipVertex {
 };
 using Polygon = Vertices<ClipVertex>;
 
-// The signed distance, inside at 0 and above. llvmpipe sums the products of the position and (+-1, 0, 0, 1) from left
-// to right; adding the zeros changes no sum, and so this is the same.
-float distance(const TransformModel& model, float shrink, ClipPlane plane, const ClipPosition& p) {
-  const float x = shrink * p.x;
-  const float y = shrink * p.y;
-  switch (plane) {
-    case ClipPlane::left:
-      return p.w + x;
-    case ClipPlane::right:
-      return p.w - x;
-    case ClipPlane::bottom:
-      return p.w + y;
-    case ClipPlane::top:
-      return p.w - y;
-    case ClipPlane::near:
-      return model.depth == DepthRange::zero_to_w ? p.z : p.w + p.z;
-    case ClipPlane::far:
-      return p.w - p.z;
-  }
-  return 0;
-}
-
 unsigned bit_of(ClipPlane plane) { return 1U << static_cast<unsigned>(plane); }
+
+// The signed distance is coordinate * factor, + w but for a near plane at z = 0; inside at 0 and above. llvmpipe sums
+// the products of the position and (+-1, 0, 0, 1) from left to right; adding the zeros changes no sum, and so this is
+// the same.
+struct Plane {
+  float ClipPosition::*coordinate;
+  float factor;
+  bool plus_w;
+
+  Plane(const TransformModel& model, float shrink, ClipPlane plane) : coordinate(&ClipPosition::z), plus_w(true) {
+    switch (plane) {
+      case ClipPlane::left:
+      case ClipPlane::right:
+        coordinate = &ClipPosition::x;
+        factor = plane == ClipPlane::left ? shrink : -shrink;
+        break;
+      case ClipPlane::bottom:
+      case ClipPlane::top:
+        coordinate = &ClipPosition::y;
+        factor = plane == ClipPlane::bottom ? shrink : -shrink;
+        break;
+      case ClipPlane::near:
+        factor = 1;
+        plus_w = model.depth == DepthRange::minus_w_to_w;
+        break;
+      case ClipPlane::far:
+        factor = -1;
+        break;
+    }
+  }
+
+  float distance(const ClipPosition& p) const {
+    const float product = factor * (p.*coordinate);
+    return plus_w ? p.w + product : product;
+  }
+};
 
 // The planes that it lies outside of.
 unsigned outcode(const TransformModel& model, float shrink, const ClipPosition& p) {
   using enum ClipPlane;
   unsigned code = 0;
   for (const ClipPlane plane : {left, right, bottom, top, near, far}) {
-    if (distance(model, shrink, plane, p) < 0) code |= bit_of(plane);
+    if (Plane(model, shrink, plane).distance(p) < 0) code |= bit_of(plane);
   }
   return code;
 }
@@ -85,28 +99,30 @@ ClipPosition crossing(Interpolation how, const ClipPosition& inside, float d_ins
 }
 
 // Cuts off what lies outside of the plane; false if that makes too many vertices.
-bool cut(const TransformModel& model, float shrink, ClipPlane plane, const Polygon& in, Polygon& out) {
+bool cut(Interpolation how, const Plane& plane, const Polygon& in, Polygon& out) {
   out.clear();
   const auto add = [&out](const ClipVertex& vertex) {
     if (out.size() == kMaxVertices) return false;
     out.push_back(vertex);
     return true;
   };
+  const float first = plane.distance(in.front().at);
+  float da = first;
   for (std::size_t i = 0; i < in.size(); ++i) {
+    const bool last = i + 1 == in.size();
     const ClipVertex& a = in[i];
-    const ClipVertex& b = in[i + 1 == in.size() ? 0 : i + 1];
-    const float da = distance(model, shrink, plane, a.at);
-    const float db = distance(model, shrink, plane, b.at);
+    const ClipVertex& b = in[last ? 0 : i + 1];
+    const float db = last ? first : plane.distance(b.at);
     const bool a_stays = da >= 0;
     const bool b_stays = db >= 0;
     if (a_stays && !add(a)) return false;
-    if (a_stays == b_stays) continue;
     // An edge that comes in to a vertex on the plane itself yields no new vertex in SwiftShader. In llvmpipe it does:
     // at the same place in clip space, but projected as new vertices are.
-    if (model.interpolation == Interpolation::crosswise && !a_stays && db == 0) continue;
-    const ClipPosition at =
-        a_stays ? crossing(model.interpolation, a.at, da, b.at, db) : crossing(model.interpolation, b.at, db, a.at, da);
-    if (!add({at, false})) return false;
+    if (a_stays != b_stays && !(how == Interpolation::crosswise && !a_stays && db == 0)) {
+      const ClipPosition at = a_stays ? crossing(how, a.at, da, b.at, db) : crossing(how, b.at, db, a.at, da);
+      if (!add({at, false})) return false;
+    }
+    da = db;
   }
   return true;
 }
@@ -217,9 +233,12 @@ bool clip(const TransformModel& model, float shrink, unsigned any, Polygon& poly
   Polygon next;
   for (const ClipPlane plane : model.planes) {
     if ((any & bit_of(plane)) == 0) continue;
-    if (!cut(model, shrink, plane, polygon, next)) return false;
-    std::swap(polygon, next);
-    if (polygon.size() < 3) polygon.clear();
+    if (!cut(model.interpolation, Plane(model, shrink, plane), polygon, next)) return false;
+    polygon = next;
+    if (polygon.size() < 3) {
+      polygon.clear();
+      break;
+    }
   }
   return true;
 }

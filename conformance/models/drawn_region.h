@@ -41,6 +41,8 @@ class DrawnRegion {
   DrawnRegion(const TransformModel& model, const Setting& setting, const Viewport* viewport);
 
   const ScissorReach& reach() const { return reach_; }
+  /// Whether filter() does nothing.
+  bool is_whole() const { return passed_.empty(); }
   /// Takes the samples out of `mask` that lie in reach().all() but are not let through.
   void filter(MutableMaskView mask) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "conformance/models/transform_model.h"
+#include "conformance/scene/grid.h"
 
 namespace edgecase::conformance::llvmpipe {
 namespace {
@@ -14,6 +15,14 @@ std::int64_t first_sample(const Setting& setting) { return setting.samples() > 1
 
 std::optional<Points> snapped_points(const Setting& setting, const Triangle& triangle) {
   Points points;
+  constexpr auto kScale = static_cast<float>(kPixel);
+  if (all_on_grid({&triangle, 1}, kScale)) {
+    std::ranges::transform(triangle, points.begin(), [](const Position& position) {
+      const GridPoint p = grid_point(position, kScale);
+      return Point{p.x, p.y};
+    });
+    return points;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const auto position = snapped(lavapipe_model(), setting, triangle[i]);
     if (!position) return std::nullopt;
@@ -45,13 +54,6 @@ std::array<Edge, 3> edges_of(const Setting& setting, const Points& points) {
     edges[i] = {a * (s - from.x) + b * (s - from.y) + (top_left ? 1 : 0), a, b};
   }
   return edges;
-}
-
-std::int64_t value_at(const Setting& setting, const Edge& edge, int sample) {
-  if (setting.samples() == 1) return edge.c;
-  constexpr std::int64_t kSampleUnit = kPixel >> kSampleGridBits;
-  const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(sample)];
-  return edge.c + (edge.a * location.x + edge.b * location.y) * kSampleUnit;
 }
 
 Box box_of(const Setting& setting, const Points& points) {

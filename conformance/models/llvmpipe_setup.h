@@ -42,7 +42,12 @@ struct Edge {
 std::array<Edge, 3> edges_of(const Setting& setting, const Points& points);
 
 /// c at a sample of the pixel that `edge` is at.
-std::int64_t value_at(const Setting& setting, const Edge& edge, int sample);
+inline std::int64_t value_at(const Setting& setting, const Edge& edge, int sample) {
+  if (setting.samples() == 1) return edge.c;
+  constexpr std::int64_t kSampleUnit = kPixel >> kSampleGridBits;
+  const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(sample)];
+  return edge.c + (edge.a * location.x + edge.b * location.y) * kSampleUnit;
+}
 
 /// Pixels first to last, both included.
 struct Box {

@@ -13,8 +13,6 @@ namespace {
 
 using namespace llvmpipe;
 
-bool loose_scissor(const Setting& setting) { return setting.samples() > 1 && setting.scissor; }
-
 // The column of pixels left of the scissor and the row above it, with the pixel where they meet.
 struct Strips {
   ScissorReach reach;
@@ -32,31 +30,29 @@ struct Strips {
 
 Box box_of(const Rect& r) { return {r.x, r.y, std::int64_t{r.x} + r.width - 1, std::int64_t{r.y} + r.height - 1}; }
 
-bool may_pass_scissor(const Setting& setting, const Triangle& triangle) {
-  if (!loose_scissor(setting)) return false;
-  const auto points = snapped_points(setting, triangle);
-  if (!points) return false;
-  const Strips strips(setting);
-  const Box box = llvmpipe::box_of(setting, *points);
-  if (intersection(box, box_of(strips.reach.told())).empty()) return false;
-  return !intersection(box, strips.column).empty() || !intersection(box, strips.row).empty();
-}
-
-void cover_where_inside(const Setting& setting, const std::array<Edge, 3>& edges, const Box& box,
-                        const ScissorReach& reach, MutableMaskView mask) {
+// `strip` is a part of one row or of one column.
+void cover_strip(const Setting& setting, const std::array<Edge, 3>& edges, const Box& strip, const ScissorReach& reach,
+                 MutableMaskView mask) {
+  if (strip.empty()) return;
   const MaskLayout layout(setting);
+  const bool down = strip.left == strip.right;
+  const auto x = static_cast<int>(strip.left), y = static_cast<int>(strip.top);
+  const auto last_x = static_cast<int>(strip.right), last_y = static_cast<int>(strip.bottom);
+  const int count = down ? last_y - y + 1 : last_x - x + 1;
   for (int sample = 0; sample < setting.samples(); ++sample) {
     const SampleLocation& location = setting.sample_locations[static_cast<std::size_t>(sample)];
-    for (std::int64_t row = box.top; row <= box.bottom; ++row) {
-      std::array<std::int64_t, 3> values;
-      std::ranges::transform(edges, values.begin(),
-                             [&](const Edge& e) { return value_at(setting, e.at(box.left, row), sample); });
-      for (std::int64_t column = box.left; column <= box.right; ++column) {
-        const bool inside = values[0] > 0 && values[1] > 0 && values[2] > 0;
-        const int x = static_cast<int>(column), y = static_cast<int>(row);
-        if (inside && reach.lets_through(x, y, location)) cover(mask, layout.bit(x, y, sample));
-        for (std::size_t i = 0; i < 3; ++i) values[i] += edges[i].a * kPixel;
-      }
+    // If it is not in the last pixel, the furthest from the corner, it is in none.
+    if (!reach.lets_through(last_x, last_y, location)) continue;
+    std::array<std::int64_t, 3> values, steps;
+    for (std::size_t i = 0; i < 3; ++i) {
+      values[i] = value_at(setting, edges[i].at(x, y), sample);
+      steps[i] = (down ? edges[i].b : edges[i].a) * kPixel;
+    }
+    for (int i = 0; i < count; ++i) {
+      const int column = down ? x : x + i, row = down ? y + i : y;
+      const bool inside = values[0] > 0 && values[1] > 0 && values[2] > 0;
+      if (inside && reach.lets_through(column, row, location)) cover(mask, layout.bit(column, row, sample));
+      for (std::size_t k = 0; k < 3; ++k) values[k] += steps[k];
     }
   }
 }
@@ -66,24 +62,27 @@ void draw_past_scissor(const Setting& setting, const Triangle& triangle, Mutable
   const auto points = snapped_points(setting, triangle);
   if (!points || is_culled(setting, area_of(*points))) return;
   const Strips strips(setting);
-  const auto edges = edges_of(setting, *points);
   const Box box = llvmpipe::box_of(setting, *points);
-  cover_where_inside(setting, edges, intersection(box, strips.column), strips.reach, mask);
-  cover_where_inside(setting, edges, intersection(box, strips.row), strips.reach, mask);
+  if (intersection(box, box_of(strips.reach.told())).empty()) return;
+  const auto edges = edges_of(setting, *points);
+  cover_strip(setting, edges, intersection(box, strips.column), strips.reach, mask);
+  cover_strip(setting, edges, intersection(box, strips.row), strips.reach, mask);
 }
 
 }  // namespace
 
+bool llvmpipe_passes_scissor(const Setting& setting) { return setting.samples() > 1 && setting.scissor; }
+
 bool llvmpipe_may_deviate(const Setting& setting, const Triangle& triangle) {
-  return llvmpipe_may_wrap(setting, triangle) || may_pass_scissor(setting, triangle);
+  return llvmpipe_passes_scissor(setting) || llvmpipe_may_wrap(triangle);
 }
 
 bool llvmpipe_any_may_deviate(const Setting& setting, std::span<const Triangle> triangles) {
-  return loose_scissor(setting) || any_may_wrap(triangles);
+  return llvmpipe_passes_scissor(setting) || llvmpipe_any_may_wrap(triangles);
 }
 
 void predict_llvmpipe(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
-  if (llvmpipe_may_wrap(setting, triangle)) return predict_llvmpipe_wrap(setting, triangle, mask);
+  if (predict_llvmpipe_wrap(setting, triangle, mask) || !llvmpipe_passes_scissor(setting)) return;
   draw_past_scissor(setting, triangle, mask);
 }
 

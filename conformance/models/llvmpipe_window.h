@@ -10,14 +10,17 @@
 
 namespace edgecase::conformance {
 
-/// Whether it may be anything but what the rules say.
+/// Whether the scissor lets more through than the rules do.
+bool llvmpipe_passes_scissor(const Setting& setting);
+
+/// Whether it may be anything but what the rules say, by the setting and the triangle's extent.
 bool llvmpipe_may_deviate(const Setting& setting, const Triangle& triangle);
 
-/// The same for a whole list: says no only if it does so for each of them. Looks at little more than their extents.
+/// The same for a whole list: says no only if it does so for each of them.
 bool llvmpipe_any_may_deviate(const Setting& setting, std::span<const Triangle> triangles);
 
-/// Turns `mask`, which has MaskLayout(setting) and is what the rules cover of a triangle that llvmpipe_may_deviate(),
-/// into what llvmpipe covers. Positions pass through the viewport transform unchanged (enclosing_viewport.h).
+/// Turns `mask`, which has MaskLayout(setting) and is what the rules cover, into what llvmpipe covers. Positions pass
+/// through the viewport transform unchanged (enclosing_viewport.h).
 void predict_llvmpipe(const Setting& setting, const Triangle& triangle, MutableMaskView mask);
 
 }  // namespace edgecase::conformance

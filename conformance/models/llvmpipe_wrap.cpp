@@ -183,9 +183,8 @@ struct Reach {
   bool far() const { return huge | by_four; }
 };
 
-/// Whether an edge has a value within the tile that 32 bits do not hold once it is shifted: then they are what the
-/// rules go by, and the scissor's. Values are greatest and least in the tile's corners; 4 makes up for all that is
-/// shifted.
+/// Whether an edge has a value within the tile that 32 bits do not hold once it is shifted; if none has, every sign is
+/// the exact one. Values are greatest and least in the tile's corners; 4 makes up for what shifts take away.
 bool wraps(const std::array<Edge, 3>& edges) {
   constexpr std::int64_t kFits = (std::int64_t{1} << 31) - 4;
   return std::ranges::any_of(edges, [](const Edge& e) {
@@ -202,39 +201,42 @@ bool wraps_by_four(const Setting& setting, const std::array<Edge, 3>& edges) {
       edges, [&](const Edge& e) { return e.at(e.a > 0 ? columns : 0, e.b > 0 ? rows : 0).c > std::int64_t{1} << 29; });
 }
 
-}  // namespace
-
-bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle) {
-  const Reach reach(triangle);
-  if (!reach.far()) return false;
-  const auto points = snapped_points(setting, triangle);
-  if (!points) return false;
-  const Box box = box_of(setting, *points);
+bool wraps(const Setting& setting, const Box& box, const std::array<Edge, 3>& edges) {
   if (box.right < 0 || box.bottom < 0 || box.right >= kTile || box.bottom >= kTile) return false;
-  const auto edges = edges_of(setting, *points);
   if (extent(box) > kMostShort) return wraps(edges);
-  return reach.by_four && may_wrap_by_four(setting, box) && wraps_by_four(setting, edges);
+  return may_wrap_by_four(setting, box) && wraps_by_four(setting, edges);
 }
 
+}  // namespace
+
+bool llvmpipe_may_wrap(const Triangle& triangle) { return Reach(triangle).far(); }
+
 // With extents of at most 88 px neither limit of Reach is reached: 153^2 is below 2^22, and 89^2 below 2^13.
-bool any_may_wrap(std::span<const Triangle> triangles) {
+bool llvmpipe_any_may_wrap(std::span<const Triangle> triangles) {
   if (all_within(triangles, 44)) return false;
   bool any = false;
   for (const Triangle& triangle : triangles) any |= Reach(triangle).far();
   return any;
 }
 
-void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
-  std::ranges::fill(mask, 0);
+bool predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
+  if (!llvmpipe_may_wrap(triangle)) return false;
   const auto points = snapped_points(setting, triangle);
-  if (!points || is_culled(setting, area_of(*points))) return;
-  const Box box = box_of(setting, *points), scissor = scissor_of(setting), drawn = intersection(box, scissor);
-  if (drawn.empty()) return;
+  if (!points) return false;
+  const Box box = box_of(setting, *points);
   const auto of_triangle = edges_of(setting, *points);
+  if (!wraps(setting, box, of_triangle)) return false;
+  std::ranges::fill(mask, 0);
+  const Box scissor = scissor_of(setting), drawn = intersection(box, scissor);
+  if (drawn.empty() || is_culled(setting, area_of(*points))) return true;
   Edges edges(of_triangle.begin(), of_triangle.end());
   append_scissor_edges(setting, box, scissor, edges);
-  if (extent(box) <= kMostShort) return draw_by_four(setting, edges, drawn, mask);
-  Tile(setting, mask).draw(edges, 0, 0, kTile);
+  if (extent(box) <= kMostShort) {
+    draw_by_four(setting, edges, drawn, mask);
+  } else {
+    Tile(setting, mask).draw(edges, 0, 0, kTile);
+  }
+  return true;
 }
 
 }  // namespace edgecase::conformance

@@ -33,14 +33,16 @@
 
 namespace edgecase::conformance {
 
-/// Whether an edge's value may be too large for llvmpipe; if not, it covers what the rules say.
-bool llvmpipe_may_wrap(const Setting& setting, const Triangle& triangle);
+/// Whether an edge's value may be too large for llvmpipe, by the triangle's extent alone; if not, it covers what the
+/// rules say.
+bool llvmpipe_may_wrap(const Triangle& triangle);
 
-/// The same for a whole list: says no only if it does so for each of them. Looks at nothing but their extents.
-bool any_may_wrap(std::span<const Triangle> triangles);
+/// The same for a whole list: says no only if it does so for each of them.
+bool llvmpipe_any_may_wrap(std::span<const Triangle> triangles);
 
-/// Writes every word of `mask`, which has MaskLayout(setting), for a triangle that llvmpipe_may_wrap(). Positions pass
-/// through the viewport transform unchanged (enclosing_viewport.h).
-void predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, MutableMaskView mask);
+/// Writes every word of `mask`, which has MaskLayout(setting), if some value of an edge is too large for llvmpipe; if
+/// not, returns false and leaves it as it is. Positions pass through the viewport transform unchanged
+/// (enclosing_viewport.h).
+bool predict_llvmpipe_wrap(const Setting& setting, const Triangle& triangle, MutableMaskView mask);
 
 }  // namespace edgecase::conformance

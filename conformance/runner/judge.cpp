@@ -12,14 +12,12 @@
 namespace edgecase::conformance {
 namespace {
 
-Comparison compare_one(const MaskLayout& layout, const Batch& batch, MaskView expected, MaskView observed,
-                       std::size_t triangle) {
+// The first sample in which one mask is not what is predicted.
+std::optional<WrongSample> first_wrong(const MaskLayout& layout, MaskView predicted, MaskView observed,
+                                       std::size_t triangle) {
   Comparison comparison;
-  const std::span<const std::uint64_t> may =
-      batch.may.empty() ? std::span<const std::uint64_t>{}
-                        : std::span(batch.may).subspan(triangle * expected.size(), expected.size());
-  compare_masks(layout, expected, may, observed, triangle, comparison);
-  return comparison;
+  compare_masks(layout, predicted, {}, observed, triangle, comparison);
+  return comparison.first;
 }
 
 }  // namespace
@@ -39,40 +37,52 @@ tl::expected<void, Error> Judge::judge(const Batch& batch, std::size_t first_tri
   if (!drawn) return tl::unexpected(drawn.error());
   drawn_ = *drawn;
   observed_ = {};
+  wrong_.clear();
   window_.reset();
+  if (batch.scene.clip && !batch.rule_set->exact()) {
+    window_ =
+        Scene{batch.scene.setting, batch.scene.rules, exact_window_triangles(batch.scene).value(), batch.scene.meshes};
+  }
+  reference_.take_up(judged_scene(batch));
   agreed_ = false;
   if (is_plain(batch)) {
-    auto agreed = reference_.expects(batch.scene, first_triangle, drawn_);
+    auto agreed = reference_.expects(first_triangle, drawn_);
     if (!agreed) return tl::unexpected(agreed.error());
     agreed_ = *agreed;
   }
-  if (!agreed_) {
+  if (agreed_) {
+    outcome.triangles.triangles += triangle_count(batch.scene);
+    outcome.triangles.samples_compared += triangle_count(batch.scene) * MaskLayout(batch.scene.setting).sample_count();
+    if (!batch.scene.clip && may_deviate(batch)) {
+      observe();
+      if (auto judged = judge_triangles(batch, outcome); !judged) return judged;
+    }
+  } else {
     observe();
     if (auto compared = compare(batch, first_triangle, outcome); !compared) return compared;
-  } else {
-    outcome.triangles.triangles += batch.scene.triangles.size();
-    outcome.triangles.samples_compared += batch.scene.triangles.size() * MaskLayout(batch.scene.setting).sample_count();
-    if (deviation_ != nullptr && deviation_->in_window.may_concern_any(batch.scene.setting, batch.scene.triangles)) {
-      observe();
-      if (auto judged = judge_triangles(batch, true, outcome); !judged) return judged;
-    }
   }
   judge_meshes(batch, first_triangle, outcome);
   return {};
 }
 
-// Nearly all batches, and nearly all of these are right: what is expected need not be kept then.
+// Nearly all batches, and nearly all of these are right: what is expected need not be kept then. In clip space it has
+// to be where the parts of a triangle may deviate, of which only the whole is observed.
 bool Judge::is_plain(const Batch& batch) const {
-  return !batch.scene.clip && batch.may.empty() && batch.rule_set->exact() &&
-         (deviation_ == nullptr || !deviation_->replaces_rules());
+  if (!batch.may.empty() || !batch.rule_set->exact()) return false;
+  if (deviation_ == nullptr) return true;
+  return batch.scene.clip ? !may_deviate(batch) : !deviation_->concerns_most(batch.scene.setting);
+}
+
+bool Judge::may_deviate(const Batch& batch) const {
+  if (deviation_ == nullptr) return false;
+  const Scene& scene = judged_scene(batch);
+  if (!scene.clip) return deviation_->in_window.may_concern_any(scene.setting, scene.triangles);
+  const Scene& parts = reference_.window().scene;
+  return deviation_->of_part.may_concern_any(parts.setting, parts.triangles);
 }
 
 tl::expected<void, Error> Judge::compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
-  if (batch.scene.clip && !batch.rule_set->exact()) {
-    window_ =
-        Scene{batch.scene.setting, batch.scene.rules, exact_window_triangles(batch.scene).value(), batch.scene.meshes};
-  }
-  if (auto known = reference_.expect(judged_scene(batch), first_triangle, expected_); !known) return known;
+  if (auto known = reference_.expect(first_triangle, expected_); !known) return known;
   if (!batch.rule_set->exact()) {
     const auto granted =
         grant_choices(judged_scene(batch), *batch.rule_set, first_triangle, observed_, reference_, expected_);
@@ -87,44 +97,38 @@ tl::expected<void, Error> Judge::compare(const Batch& batch, std::size_t first_t
   outcome.unpredicted += unpredicted;
 
   Comparison comparison;
-  compare_masks(layout, expected_.data(), batch.may, observed_.data(), first_triangle, comparison);
+  compare_masks(layout, expected_.data(), batch.may, observed_.data(), first_triangle, comparison, &wrong_);
+  for (WrongSample& wrong : wrong_) wrong.triangle -= first_triangle;
   comparison.triangles -= unpredicted;
   comparison.samples_compared -= unpredicted * layout.sample_count();
   outcome.triangles.add(comparison);
-  if (comparison.wrong_triangles != 0 || deviation_ != nullptr) {
-    return judge_triangles(batch, comparison.wrong_triangles == 0, outcome);
-  }
-  return {};
+  if (wrong_.empty() && !may_deviate(batch)) return {};
+  return judge_triangles(batch, outcome);
 }
 
 // Reached only where something is wrong or predicted to be: here every triangle is looked at on its own, and one that
 // is wrong otherwise than predicted goes to both oracles before anybody is blamed.
-tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, bool all_right, Outcome& outcome) {
-  const MaskLayout layout(batch.scene.setting);
+tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& outcome) {
+  auto next_wrong = wrong_.begin();
   for (std::size_t i = 0; i < triangle_count(batch.scene); ++i) {
+    const bool wrong = next_wrong != wrong_.end() && next_wrong->triangle == i;
     const bool concerned = may_deviate(judged_scene(batch), i);
-    if (all_right && !concerned) continue;
-    const Comparison comparison = compare_one(layout, batch, expected()[i], observed_[i], i);
-    const bool wrong = !comparison.all_right();
     if (!wrong && !concerned) continue;
     const bool known = concerned && as_predicted(batch, i);
-    const bool confirms = wrong && (!known || outcome.known_triangles % kKnownShare == 0);
-    if (confirms && batch.rule_set->exact()) {  // else grant_choices has seen to it
-      if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
-    }
-    if (wrong && known) {
-      ++outcome.known_triangles;
-      add_finding(batch, i, 1, *comparison.first, true, outcome);
-    } else if (wrong) {
-      ++outcome.unexplained;
-      add_finding(batch, i, 1, *comparison.first, false, outcome);
+    if (wrong) {
+      const bool confirms = !known || outcome.known_triangles % kKnownShare == 0;
+      if (confirms && batch.rule_set->exact()) {  // else grant_choices has seen to it
+        if (auto confirmed = reference_.confirm(batch.scene, i, expected_[i]); !confirmed) return confirmed;
+      }
+      ++(known ? outcome.known_triangles : outcome.unexplained);
+      add_finding(batch, i, 1, *next_wrong++, known, outcome);
     } else if (!known) {
       // Right where it is predicted to be wrong: the prediction, or the subject, is no longer what it was.
-      const Comparison obsolete = compare_one(layout, batch, predicted_, observed_[i], i);
-      if (!obsolete.first) continue;
+      const auto obsolete = first_wrong(MaskLayout(batch.scene.setting), predicted_, observed_[i], i);
+      if (!obsolete) continue;
       ++outcome.unexplained;
       ++outcome.obsolete;
-      add_finding(batch, i, 1, *obsolete.first, false, outcome);
+      add_finding(batch, i, 1, *obsolete, false, outcome);
     }
   }
   return {};

@@ -98,8 +98,10 @@ class Judge {
  private:
   /// The scene in the window if the rule set is not exact: no model of a driver has a say in what it demands.
   const Scene& judged_scene(const Batch& batch) const { return window_ ? *window_ : batch.scene; }
-  /// Whether the rules alone say what each triangle has to cover.
+  /// Whether it is likely that the masks of the batch are all as the reference has them, and enough to know that.
   bool is_plain(const Batch& batch) const;
+  /// Whether the known deviation may concern any triangle of the batch.
+  bool may_deviate(const Batch& batch) const;
   /// Makes observed_ what drawn_ is, if it is not yet.
   void observe() {
     if (observed_.size() == 0) observed_ = drawn_.whole(scratch_);
@@ -108,8 +110,9 @@ class Judge {
   tl::expected<void, Error> compare(const Batch& batch, std::size_t first_triangle, Outcome& outcome);
   /// The masks that the last batch should have.
   MaskBatchView expected() const { return agreed_ ? observed_ : MaskBatchView(expected_); }
-  tl::expected<void, Error> judge_triangles(const Batch& batch, bool all_right, Outcome& outcome);
-  /// Whether the known deviation may concern that triangle of the scene last given to the reference.
+  /// One by one; wrong_ is of the batch.
+  tl::expected<void, Error> judge_triangles(const Batch& batch, Outcome& outcome);
+  /// Whether it may concern that triangle of the scene that the reference has taken up.
   bool may_deviate(const Scene& scene, std::size_t triangle) const;
   /// Whether the subject drew what its known deviation predicts for that triangle.
   bool as_predicted(const Batch& batch, std::size_t triangle);
@@ -137,6 +140,7 @@ class Judge {
   MaskBatch scratch_;
   MaskBatch mesh_masks_;
   std::optional<Scene> window_;
+  std::vector<WrongSample> wrong_;  ///< the first one of each wrong triangle, which is counted from the batch's first
   std::vector<std::uint64_t> predicted_;
   std::vector<std::uint64_t> part_;
   std::vector<GridTriangle> snapped_;

@@ -27,7 +27,7 @@ std::uint64_t part_of(const Batch& batch, std::size_t triangle) {
 void Judge::show_clipped(std::size_t first, std::size_t count, Finding& finding) const {
   const ClippedView clipped = clipped_view(reference_.window(), first, count);
   finding.window = clipped.scene;
-  finding.expected = clipped.masks(expected_);
+  finding.expected = clipped.masks(expected());
   finding.observed = clipped.masks(observed_);
 }
 

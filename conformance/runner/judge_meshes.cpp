@@ -59,6 +59,7 @@ void Judge::judge_meshes(const Batch& batch, std::size_t first_triangle, Outcome
 void Judge::judge_clip_meshes(const Batch& batch, std::size_t first_triangle, Outcome& outcome) {
   const Setting& setting = batch.scene.setting;
   const ClipGeometry& geometry = *batch.scene.clip;
+  observe();
   std::vector<std::uint64_t> inside(MaskLayout(setting).words());
   for (const Mesh& mesh : batch.scene.meshes) {
     const auto triangles = std::span(geometry.triangles).subspan(mesh.first, mesh.count);

@@ -23,12 +23,19 @@ struct Model {
   std::string_view name;
   DeviationModel in_window;
   DeviationModel of_part;
+  bool (*is_frequent)(const Setting& setting);
 };
 
-constexpr std::array kModels{Model{"softpipe", {nullptr, predict_softpipe}, {nullptr, predict_softpipe}},
-                             Model{"llvmpipe",
-                                   {llvmpipe_may_deviate, predict_llvmpipe, llvmpipe_any_may_deviate},
-                                   {llvmpipe_may_wrap, predict_llvmpipe_wrap}}};
+constexpr std::array kModels{
+    Model{"softpipe", {.predict = predict_softpipe}, {.predict = predict_softpipe}, nullptr},
+    Model{"llvmpipe",
+          {predict_llvmpipe, llvmpipe_may_deviate, llvmpipe_any_may_deviate},
+          {[](const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
+             predict_llvmpipe_wrap(setting, triangle, mask);
+           },
+           [](const Setting&, const Triangle& triangle) { return llvmpipe_may_wrap(triangle); },
+           [](const Setting&, std::span<const Triangle> triangles) { return llvmpipe_any_may_wrap(triangles); }},
+          llvmpipe_passes_scissor}};
 
 tl::unexpected<Error> bad(const std::filesystem::path& file, std::string_view what) {
   return tl::unexpected(Error{ErrorKind::bad_input, fmt::format("{}: {}", file.string(), what)});
@@ -72,7 +79,8 @@ tl::expected<std::vector<KnownDeviation>, Error> load_known_deviations(const std
     if (std::ranges::find(result, *subject, &KnownDeviation::subject) != result.end()) {
       return bad(file, fmt::format("[{}].subject: \"{}\" is there twice", i, *subject));
     }
-    result.push_back({*subject, device.value_or(std::string()), *cause, model->in_window, model->of_part});
+    result.push_back(
+        {*subject, device.value_or(std::string()), *cause, model->in_window, model->of_part, model->is_frequent});
   }
   return result;
 }

@@ -15,11 +15,12 @@
 namespace edgecase::conformance {
 
 struct DeviationModel {
-  /// Whether it may predict anything but what the rules say of that triangle; null if it replaces the rules.
-  bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
-  /// Turns the mask that the rules ask for into the one that the subject is predicted to draw.
+  /// Turns the mask that the rules ask for into the one that the subject is predicted to draw; where it does not
+  /// deviate, they are the same.
   void (*predict)(const Setting& setting, const Triangle& triangle, MutableMaskView mask) = nullptr;
-  /// Whether it may concern any of them. May say yes where it does not; null always does.
+  /// Whether it may concern the triangle, as far as that can be told at a glance; null always does.
+  bool (*concerns)(const Setting& setting, const Triangle& triangle) = nullptr;
+  /// Whether it may concern any of them, at less than a glance each; null always does.
   bool (*concerns_any)(const Setting& setting, std::span<const Triangle> triangles) = nullptr;
 
   bool may_concern(const Setting& setting, const Triangle& triangle) const {
@@ -44,6 +45,11 @@ struct KnownDeviation {
   DeviationModel of_part{};
 
   bool replaces_rules() const { return in_window.concerns == nullptr; }
+  bool concerns_most(const Setting& setting) const {
+    return replaces_rules() || (is_frequent != nullptr && is_frequent(setting));
+  }
+  /// Whether it concerns so many triangles in window positions that few batches are as the rules say; null: never.
+  bool (*is_frequent)(const Setting& setting) = nullptr;
 };
 
 /// Reads the list, a JSON array of {"subject", "device" (optional), "model", "cause"}; errors name file, entry and

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "conformance/oracle/oracle.h"
@@ -29,19 +30,42 @@ std::string coordinates(const Triangle& triangle) {
                      triangle[1].y, triangle[2].x, triangle[2].y);
 }
 
-tl::expected<void, Error> Reference::expect(const Scene& scene, std::uint64_t first_index, MaskBatch& must) {
+void Reference::take_up(const Scene& scene) {
+  scene_ = &scene;
   window_.reset();
-  if (!scene.clip) return expect_window(scene, first_index, must);
-  window_.emplace(window_scene(model_ ? *model_ : exact_model(scene.rules), scene));
+  if (scene.clip) window_.emplace(window_scene(model_ ? *model_ : exact_model(scene.rules), scene));
+}
+
+tl::expected<void, Error> Reference::expect(std::uint64_t first_index, MaskBatch& must) {
+  if (!window_) return expect_window(*scene_, first_index, must);
   if (auto parts = expect_window(window_->scene, first_index, parts_); !parts) return parts;
-  must.reset(MaskLayout(scene.setting), triangle_count(scene));
+  must.reset(MaskLayout(scene_->setting), triangle_count(*scene_));
   unite(*window_, parts_, must);
   return {};
 }
 
-tl::expected<bool, Error> Reference::expects(const Scene& scene, std::uint64_t first_index,
-                                             const DrawnMasks& observed) {
-  window_.reset();
+const Scene* Reference::one_for_each() {
+  if (!window_) return scene_;
+  const WindowScene& w = *window_;
+  const auto is_more = [&](std::size_t i) {
+    return w.parts_of(i) > 1 || (w.parts_of(i) == 1 && w.takes_away[w.first[i]]);
+  };
+  if (!w.unpredicted.empty() || !w.region.is_whole()) return nullptr;
+  if (std::ranges::any_of(std::views::iota(std::size_t{0}, w.size()), is_more)) return nullptr;
+  if (w.scene.triangles.size() == w.size()) return &w.scene;
+  one_for_each_.setting = w.scene.setting;
+  one_for_each_.rules = w.scene.rules;
+  one_for_each_.triangles.assign(w.size(), Triangle{});  // without area
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (w.parts_of(i) == 1) one_for_each_.triangles[i] = w.scene.triangles[w.first[i]];
+  }
+  return &one_for_each_;
+}
+
+tl::expected<bool, Error> Reference::expects(std::uint64_t first_index, const DrawnMasks& observed) {
+  const Scene* const whole = one_for_each();
+  if (whole == nullptr) return false;
+  const Scene& scene = *whole;
   if (const auto same = fast_ ? fast_->draws(scene, observed) : std::nullopt) {
     if (!*same) return false;
     if (auto confirmed = confirm_share(scene, first_index, observed); !confirmed) {

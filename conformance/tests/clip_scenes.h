@@ -108,9 +108,7 @@ inline Tally compared(const MaskBatch& found, const TransformModel& model, const
   for (std::size_t i = 0; llvmpipe && i < window.size(); ++i) {
     for (std::size_t p = window.first[i]; p < window.first[i + 1]; ++p) {
       const Triangle& part = window.scene.triangles[p];
-      if (!llvmpipe_may_wrap(window.scene.setting, part)) continue;
-      predict_llvmpipe_wrap(window.scene.setting, part, parts[p]);
-      wraps[i] = true;
+      if (predict_llvmpipe_wrap(window.scene.setting, part, parts[p])) wraps[i] = true;
     }
   }
   unite(window, parts, predicted);

@@ -51,6 +51,22 @@ TEST(Compare, NamesTheFirstWrongSampleAcrossBatches) {
   EXPECT_EQ(describe(*total.first), "missing: pixel (17, 9), sample 1, triangle 103");
 }
 
+TEST(Compare, NamesTheFirstWrongSampleOfEachWrongTriangle) {
+  const MaskLayout layout(setting(20, 10, 4));
+  const MaskBatch must = empty_masks(layout, 4);
+  MaskBatch observed = must;
+  cover(observed[1], layout.bit(3, 4, 0));
+  cover(observed[1], layout.bit(2, 4, 1));
+  cover(observed[3], layout.bit(0, 0, 2));
+  observed[2][1] = std::uint64_t{1} << 63;  // padding
+  Comparison total;
+  std::vector<WrongSample> firsts;
+  compare_masks(layout, must.data(), {}, observed.data(), 10, total, &firsts);
+  ASSERT_EQ(firsts.size(), 2u);
+  EXPECT_EQ(firsts[0], (WrongSample{WrongSample::Kind::unexpected, 11, 2, 4, 1}));
+  EXPECT_EQ(firsts[1], (WrongSample{WrongSample::Kind::unexpected, 13, 0, 0, 2}));
+}
+
 TEST(Compare, LeavesOpenSamplesOut) {
   const MaskLayout layout(setting(3, 2, 1));
   MaskBatch must = empty_masks(layout, 2);

@@ -103,17 +103,17 @@ void predict_bounded(const Setting& setting, const Triangle& triangle, MutableMa
 }
 
 TEST(ExtentSweep, ADeviationExplainsFurther) {
-  const KnownDeviation all{"bounded", "", "", nullptr, predict_bounded};
+  const KnownDeviation all{"bounded", "", "", predict_bounded};
   Bounded accepted(100, 8192);
   EXPECT_EQ(describe_limit(limit_of(accepted, 100, &all)),
             "exact to ±100 px, as its known deviation predicts to ±8,192 px; beyond: not accepted");
-  const KnownDeviation half{"bounded", "", "",
-                            [](const Setting&, const Triangle& triangle) { return reach(triangle) <= 5000; },
-                            predict_bounded};
+  const KnownDeviation half{"bounded", "", "", {predict_bounded, [](const Setting&, const Triangle& triangle) {
+                                                  return reach(triangle) <= 5000;
+                                                }}};
   EXPECT_EQ(describe_limit(limit_of(accepted, 100, &half)),
             "exact to ±100 px, as its known deviation predicts to ±5,000 px; beyond: wrong samples");
   // Wrong, but not as predicted: nothing is explained.
-  const KnownDeviation other{"bounded", "", "", nullptr,
+  const KnownDeviation other{"bounded", "", "",
                              [](const Setting&, const Triangle&, MutableMaskView mask) { std::ranges::fill(mask, 0); }};
   EXPECT_EQ(describe_limit(limit_of(accepted, 100, &other)), "exact to ±100 px; beyond: wrong samples");
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "conformance/generators/generator.h"
+#include "conformance/models/transform_model.h"
 #include "conformance/subjects/registry.h"
 
 namespace edgecase::conformance {
@@ -57,18 +58,41 @@ TEST(Reference, GivesTheOraclesTheirShareOfWhatAgrees) {
     ASSERT_TRUE(reference.expect(scene, 1, masks));
     const std::uint64_t share = reference.confirmed();
     EXPECT_EQ(share, (scene.triangles.size() + 1 + kOracleShare - 1) / kOracleShare - 1);
-    ASSERT_EQ(reference.expects(scene, 1, MaskBatchView(masks)), true);
+    ASSERT_EQ(reference.expects(1, MaskBatchView(masks)), true);
     EXPECT_EQ(reference.confirmed(), 2 * share);
     // As a driver has them.
     ASSERT_TRUE(MaskLayout(scene.setting).has_short_rows());
     std::vector<std::uint32_t> rows(masks.data().begin(), masks.data().end());
-    ASSERT_EQ(reference.expects(scene, 1, DrawnMasks(MaskLayout(scene.setting), rows)), true);
+    ASSERT_EQ(reference.expects(1, DrawnMasks(MaskLayout(scene.setting), rows)), true);
     EXPECT_EQ(reference.confirmed(), 3 * share);
     rows[rows.size() - 7] ^= 4;
-    ASSERT_EQ(reference.expects(scene, 1, DrawnMasks(MaskLayout(scene.setting), rows)), false);
+    ASSERT_EQ(reference.expects(1, DrawnMasks(MaskLayout(scene.setting), rows)), false);
     masks[scene.triangles.size() - 1][3] ^= 4;
-    ASSERT_EQ(reference.expects(scene, 1, MaskBatchView(masks)), false);
+    ASSERT_EQ(reference.expects(1, MaskBatchView(masks)), false);
   }
+}
+
+// Seen whole, one cut to a quad, one beyond a plane.
+TEST(Reference, TellsInClipSpaceWithoutMasksWhereNoTriangleBecomesTwo) {
+  const ClipTriangle seen{{{-0.5F, -0.5F, 0, 1}, {0.5F, -0.5F, 0, 1}, {0, 0.7F, 0, 1}}};
+  const ClipTriangle cut{{{-0.5F, -0.5F, 0, 1}, {2, -0.5F, 0, 1}, {0, 0.7F, 0, 1}}};
+  const ClipTriangle beyond{{{2, -0.5F, 0, 1}, {3, -0.5F, 0, 1}, {2, 0.7F, 0, 1}}};
+  Scene scene;
+  scene.setting.target = {32, 32};
+  scene.clip = ClipGeometry{{0, 0, 32, 32}, {seen, beyond, seen}};
+  Reference reference(make_subject("edgecase").value(), lavapipe_model());
+  MaskBatch masks;
+  ASSERT_TRUE(reference.expect(scene, 1, masks));
+  EXPECT_EQ(reference.expects(1, MaskBatchView(masks)), true);
+  for (const std::size_t i : {0U, 1U, 2U}) {
+    masks[i][9] ^= 4;
+    EXPECT_EQ(reference.expects(1, MaskBatchView(masks)), false) << i;
+    masks[i][9] ^= 4;
+  }
+  scene.clip->triangles[1] = cut;
+  ASSERT_TRUE(reference.expect(scene, 1, masks));
+  EXPECT_EQ(reference.window().parts_of(1), 2U);
+  EXPECT_EQ(reference.expects(1, MaskBatchView(masks)), false) << "it cannot tell";
 }
 
 // Every mask is as expected, and what is expected is wrong.

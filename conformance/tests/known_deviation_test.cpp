@@ -48,10 +48,12 @@ class Llvmpipe : public Subject {
   tl::expected<void, Error> draw_window(const DeviationModel& deviation, const Scene& scene, MaskBatch& masks) {
     auto drawn = rasterizer_->draw(scene, masks);
     for (std::size_t i = 0; i < masks.size(); ++i) {
+      const std::vector<std::uint64_t> exact(masks[i].begin(), masks[i].end());
       if (wrap_ != Wrap::repaired && deviation.may_concern(scene.setting, scene.triangles[i])) {
         deviation.predict(scene.setting, scene.triangles[i], masks[i]);
-      } else if (wrap_ == Wrap::spread && !lost_ &&
-                 std::ranges::any_of(masks[i], [](auto word) { return word != 0; })) {
+      }
+      const bool as_the_rules = std::ranges::equal(exact, masks[i]);
+      if (wrap_ == Wrap::spread && !lost_ && as_the_rules && exact != std::vector<std::uint64_t>(exact.size())) {
         std::ranges::fill(masks[i], 0);
         lost_ = true;
       }
@@ -65,7 +67,8 @@ class Llvmpipe : public Subject {
   std::unique_ptr<Subject> rasterizer_ = make_subject("edgecase").value();
 };
 
-Outcome judged(Wrap wrap, const char* name) {
+// `confirmed`, if given, becomes how many triangles went to the oracles.
+Outcome judged(Wrap wrap, const char* name, std::uint64_t* confirmed = nullptr) {
   const Generator& generator = *find_generator(name);
   Batch batch;
   batch.scene.setting = generator.setting;
@@ -79,6 +82,7 @@ Outcome judged(Wrap wrap, const char* name) {
   Outcome outcome;
   const auto result = judge.judge(batch, 0, outcome);
   EXPECT_TRUE(result) << result.error().message;
+  if (confirmed != nullptr) *confirmed = reference.confirmed();
   return outcome;
 }
 
@@ -106,6 +110,17 @@ INSTANTIATE_TEST_SUITE_P(Generators, JudgedBothWays,
                          testing::Values("far_corner", "far_corner_samples4", "near_corner_scissor",
                                          "near_corner_small", "scissor_samples4", "scissor_tiles_samples4",
                                          "far_rectangle", "clip_far", "clip_far_samples4"));
+
+TEST(KnownDeviation, GivesTheOraclesAShareOfWhatIsPredictedAndAllElse) {
+  constexpr std::uint64_t kOfAll = 400 / kOracleShare + 1;
+  std::uint64_t confirmed = 0;
+  const Outcome kept = judged(Wrap::kept, "far_corner", &confirmed);
+  ASSERT_GT(kept.known_triangles, kKnownShare);
+  EXPECT_EQ(confirmed, kOfAll + (kept.known_triangles + kKnownShare - 1) / kKnownShare);
+  const Outcome spread = judged(Wrap::spread, "far_corner", &confirmed);
+  ASSERT_EQ(spread.unexplained, 1U);
+  EXPECT_EQ(confirmed, kOfAll + (kept.known_triangles + kKnownShare - 1) / kKnownShare + 1);
+}
 
 // Its triangles are as predicted, and so is what that does to the mesh.
 TEST(KnownDeviation, ExplainsTornMeshes) {

@@ -36,5 +36,17 @@ TEST(MaskBatch, MasksDoNotOverlap) {
   EXPECT_FALSE(covered(batch[2], 64 + 9));
 }
 
+TEST(CoverSpan, CoversItsBitsAndNoOthers) {
+  for (std::size_t begin = 0; begin <= 192; ++begin) {
+    for (std::size_t end = 0; end <= 192; ++end) {
+      std::vector<std::uint64_t> mask{0, std::uint64_t{1} << 40, 0};
+      std::vector<std::uint64_t> one_by_one = mask;
+      cover_span(mask, begin, end);
+      for (std::size_t bit = begin; bit < end; ++bit) cover(one_by_one, bit);
+      ASSERT_EQ(mask, one_by_one) << begin << " to " << end;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace edgecase::conformance

@@ -167,7 +167,6 @@ TEST(Metamorphic, WhatAModelPredictsIsKnown) {
   const KnownDeviation model{"spoilt",
                              {},
                              "its top row is missing",
-                             nullptr,
                              [](const Setting& setting, const Triangle& triangle, MutableMaskView mask) {
                                Scene scene;
                                scene.setting = setting;
