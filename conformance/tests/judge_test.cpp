@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "conformance/generators/generator.h"
 #include "conformance/models/transform_model.h"
 #include "conformance/subjects/registry.h"
@@ -93,6 +95,47 @@ TEST(Reference, TellsInClipSpaceWithoutMasksWhereNoTriangleBecomesTwo) {
   ASSERT_TRUE(reference.expect(scene, 1, masks));
   EXPECT_EQ(reference.window().parts_of(1), 2U);
   EXPECT_EQ(reference.expects(1, MaskBatchView(masks)), false) << "it cannot tell";
+}
+
+MaskBatch of_parts(const Reference& reference) {
+  MaskBatch masks;
+  EXPECT_TRUE(make_subject("edgecase").value()->draw(reference.window().scene, masks));
+  return masks;
+}
+
+// With several samples llvmpipe is given a scissor that is wider than what it lets through.
+TEST(Reference, CannotTellWithoutMasksWhatIsFiltered) {
+  Scene scene = meshes_of("clip_grids_samples4", 1).scene;
+  scene.setting.scissor = Rect{5, 7, 19, 13};
+  scene.clip->triangles = {{{{-0.9F, -0.9F, 0, 1}, {0.9F, -0.9F, 0, 1}, {0, 0.9F, 0, 1}}}};
+  Reference reference(make_subject("edgecase").value(), lavapipe_model());
+  MaskBatch masks;
+  ASSERT_TRUE(reference.expect(scene, 1, masks));
+  const MaskBatch unfiltered = of_parts(reference);
+  ASSERT_EQ(unfiltered.size(), 1U);
+  ASSERT_FALSE(std::ranges::equal(unfiltered[0], masks[0]));
+  EXPECT_EQ(reference.expects(1, MaskBatchView(unfiltered)), false);
+}
+
+// SwiftShader takes away what a triangle covers that the snap has turned over.
+TEST(Reference, CannotTellWithoutMasksWhatIsTakenAway) {
+  Scene slivers;
+  slivers.setting = find_generator("cull_turned")->setting;
+  slivers.setting.cull = CullMode::none;
+  for (std::uint64_t i = 0; i < 2000; ++i) append_scene(*find_generator("cull_turned"), 1, i, slivers);
+  Reference reference(make_subject("edgecase").value(), swiftshader_model());
+  std::size_t taken_away = 0;
+  for (const ClipTriangle& sliver : slivers.clip->triangles) {
+    Scene scene = slivers;
+    scene.clip->triangles = {sliver};
+    MaskBatch masks;
+    ASSERT_TRUE(reference.expect(scene, 1, masks));
+    const MaskBatch added = of_parts(reference);
+    if (added.size() == 0 || std::ranges::equal(added[0], masks[0])) continue;
+    ++taken_away;
+    EXPECT_EQ(reference.expects(1, MaskBatchView(added)), false);
+  }
+  EXPECT_GT(taken_away, 0U);
 }
 
 // Every mask is as expected, and what is expected is wrong.
