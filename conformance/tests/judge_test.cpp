@@ -105,9 +105,10 @@ MaskBatch of_parts(const Reference& reference) {
 
 // With several samples llvmpipe is given a scissor that is wider than what it lets through.
 TEST(Reference, CannotTellWithoutMasksWhatIsFiltered) {
-  Scene scene = meshes_of("clip_grids_samples4", 1).scene;
+  Scene scene;
+  scene.setting = find_generator("clip_grids_samples4")->setting;
   scene.setting.scissor = Rect{5, 7, 19, 13};
-  scene.clip->triangles = {{{{-0.9F, -0.9F, 0, 1}, {0.9F, -0.9F, 0, 1}, {0, 0.9F, 0, 1}}}};
+  scene.clip = ClipGeometry{{0, 0, 32, 32}, {{{{-0.9F, -0.9F, 0, 1}, {0.9F, -0.9F, 0, 1}, {0, 0.9F, 0, 1}}}}};
   Reference reference(make_subject("edgecase").value(), lavapipe_model());
   MaskBatch masks;
   ASSERT_TRUE(reference.expect(scene, 1, masks));
@@ -126,8 +127,9 @@ TEST(Reference, CannotTellWithoutMasksWhatIsTakenAway) {
   Reference reference(make_subject("edgecase").value(), swiftshader_model());
   std::size_t taken_away = 0;
   for (const ClipTriangle& sliver : slivers.clip->triangles) {
-    Scene scene = slivers;
-    scene.clip->triangles = {sliver};
+    Scene scene;
+    scene.setting = slivers.setting;
+    scene.clip = ClipGeometry{slivers.clip->viewport, {sliver}};
     MaskBatch masks;
     ASSERT_TRUE(reference.expect(scene, 1, masks));
     const MaskBatch added = of_parts(reference);
