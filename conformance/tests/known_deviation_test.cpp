@@ -123,6 +123,25 @@ TEST(KnownDeviation, GivesTheOraclesAShareOfWhatIsPredictedAndAllElse) {
   EXPECT_EQ(confirmed, kOfAll + (kept.known_triangles + kKnownShare - 1) / kKnownShare + 1);
 }
 
+// Added to what the rules cover, or drawn in all that the driver reaches and filtered: two ways to the same masks.
+TEST(KnownDeviation, PassesTheScissorAsTheModelInClipSpaceHasIt) {
+  for (const char* name : {"scissor_samples4", "scissor_tiles_samples4"}) {
+    Scene scene;
+    scene.setting = find_generator(name)->setting;
+    for (std::uint64_t i = 0; i < 400; ++i) append_scene(*find_generator(name), 1, i, scene);
+    const auto rasterizer = make_subject("edgecase").value();
+    const WindowScene window = window_scene(lavapipe_model(), scene);
+    MaskBatch added, parts, filtered;
+    ASSERT_TRUE(rasterizer->draw(window.scene, parts));
+    unite(window, parts, filtered);
+    ASSERT_TRUE(rasterizer->draw(scene, added));
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      find_known_deviation(listed(), "lavapipe", "")->in_window.predict(scene.setting, scene.triangles[i], added[i]);
+    }
+    EXPECT_TRUE(std::ranges::equal(added.data(), filtered.data())) << name;
+  }
+}
+
 // Its triangles are as predicted, and so is what that does to the mesh.
 TEST(KnownDeviation, ExplainsTornMeshes) {
   const Outcome kept = judged(Wrap::kept, "far_rectangle");
