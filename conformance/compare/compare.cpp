@@ -21,7 +21,8 @@ std::uint64_t open_samples(const MaskLayout& layout, MaskView must, MaskView may
   const std::size_t row_words = layout.row_words();
   for (std::size_t row = 0; row < must.size(); row += row_words) {
     for (std::size_t word = 0; word < row_words; ++word) {
-      open += count(may[row + word] & ~must[row + word] & sample_bits(layout, word));
+      const std::uint64_t bits = may[row + word] & ~must[row + word];
+      if (bits != 0) open += count(bits & sample_bits(layout, word));
     }
   }
   return open;

@@ -61,24 +61,27 @@ bool may_wrap_by_four(const Setting& setting, const Box& box) {
   return sides.size() == 1;
 }
 
-/// The sign of 4 * (c - 1) in 32 bits is bit 29 of c - 1, of which bit 63 is the sign that the rules ask for.
+/// The sign of 4 * (c - 1) in 32 bits is bit 29 of c - 1, of which bit 63 is the sign that the rules ask for: both are
+/// 0 for what is inside.
+constexpr std::uint64_t kOutsideByFour = std::uint64_t{1} << 63 | std::uint64_t{1} << 29;
+
 void draw_by_four(const Setting& setting, const Edges& edges, const Box& box, MutableMaskView mask) {
   const MaskLayout layout(setting);
-  const auto left = static_cast<int>(box.left), right = static_cast<int>(box.right);
-  for (auto row = static_cast<int>(box.top); row <= static_cast<int>(box.bottom); ++row) {
-    std::array<std::int64_t, kBlock> outside{};
-    for (const Edge& e : edges) {
-      const std::int64_t first = e.at(0, row).c - 1;
-      for (int column = 0; column < kBlock; ++column) {
-        const std::int64_t value = first + e.a * kPixel * column;
-        outside[static_cast<std::size_t>(column)] |= value >> 63 | value >> 29;
-      }
-    }
+  Edges asked;
+  for (const Edge& e : edges) {
+    const std::int64_t least = e.at(e.a < 0 ? box.right : box.left, e.b < 0 ? box.bottom : box.top).c - 1;
+    const std::int64_t most = e.at(e.a > 0 ? box.right : box.left, e.b > 0 ? box.bottom : box.top).c - 1;
+    const bool all_inside = least >= 0 && most < std::int64_t{1} << 29;
+    if (!all_inside) asked.push_back(e);
+  }
+  for (std::int64_t row = box.top; row <= box.bottom; ++row) {
     std::uint64_t inside = 0;
-    for (int column = left; column <= right; ++column) {
-      inside |= static_cast<std::uint64_t>(~outside[static_cast<std::size_t>(column)] & 1) << column;
+    for (std::int64_t column = box.left; column <= box.right; ++column) {
+      std::uint64_t values = 0;
+      for (const Edge& e : asked) values |= static_cast<std::uint64_t>(e.at(column, row).c - 1);
+      inside |= std::uint64_t{(values & kOutsideByFour) == 0} << column;
     }
-    mask[layout.bit(0, row, 0) / 64] = inside;
+    mask[layout.bit(0, static_cast<int>(row), 0) / 64] = inside;
   }
 }
 

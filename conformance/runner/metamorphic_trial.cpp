@@ -15,7 +15,9 @@ constexpr std::size_t kExperimentTriangles = 1024;
 
 std::uint64_t bits_of(std::span<const std::uint64_t> words) {
   std::uint64_t count = 0;
-  for (const std::uint64_t word : words) count += static_cast<std::uint64_t>(std::popcount(word));
+  for (const std::uint64_t word : words) {
+    if (word != 0) count += static_cast<std::uint64_t>(std::popcount(word));
+  }
   return count;
 }
 
