@@ -121,9 +121,9 @@ TEST(Reference, CannotTellWithoutMasksWhatIsFiltered) {
 // SwiftShader takes away what a triangle covers that the snap has turned over.
 TEST(Reference, CannotTellWithoutMasksWhatIsTakenAway) {
   Scene slivers;
-  slivers.setting = find_generator("cull_turned")->setting;
+  slivers.setting = find_generator("cull_across")->setting;
   slivers.setting.cull = CullMode::none;
-  for (std::uint64_t i = 0; i < 2000; ++i) append_scene(*find_generator("cull_turned"), 1, i, slivers);
+  for (std::uint64_t i = 0; i < 2000; ++i) append_scene(*find_generator("cull_across"), 1, i, slivers);
   Reference reference(make_subject("edgecase").value(), swiftshader_model());
   std::size_t taken_away = 0;
   for (const ClipTriangle& sliver : slivers.clip->triangles) {
