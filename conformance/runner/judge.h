@@ -56,6 +56,9 @@ struct Finding {
   bool crack = false;  ///< a mesh that clipping tore; known if the model of the clipper predicts it
 };
 
+/// How many of a kind are kept to be shown. What is known is explained where it is listed.
+inline std::ptrdiff_t most_findings(bool known) { return known ? 1 : 3; }
+
 /// What came of one subject on one case or generator. Sums up over batches.
 struct Outcome {
   Comparison triangles;
@@ -67,7 +70,7 @@ struct Outcome {
   std::uint64_t may = 0;              ///< samples that the rule set leaves open, covered otherwise than by Rules
   std::uint64_t unexplained = 0;      ///< triangles wrong and not predicted, or predicted wrong and right
   std::uint64_t obsolete = 0;         ///< of these, predicted to be wrong and right
-  /// The first few of each kind.
+  /// The first of each kind: up to most_findings().
   std::vector<Finding> findings;
 };
 

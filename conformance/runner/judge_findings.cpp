@@ -5,8 +5,6 @@
 namespace edgecase::conformance {
 namespace {
 
-constexpr std::size_t kFindingsOfAKind = 3;
-
 void copy_masks(const MaskLayout& layout, const MaskBatchView& from, std::size_t first, std::size_t count,
                 MaskBatch& to) {
   to.reset(layout, count);
@@ -34,9 +32,7 @@ void Judge::show_clipped(std::size_t first, std::size_t count, Finding& finding)
 // What is expected of a torn mesh is what was observed, but with each sample inside covered once.
 void Judge::add_crack(const Batch& batch, const Mesh& mesh, const WrongSample& wrong, MaskView inside, bool known,
                       Outcome& outcome) const {
-  if (std::ranges::count(outcome.findings, true, &Finding::crack) >= static_cast<std::ptrdiff_t>(kFindingsOfAKind)) {
-    return;
-  }
+  if (std::ranges::count(outcome.findings, true, &Finding::crack) >= most_findings(known)) return;
   const auto& all = batch.scene.clip->triangles;
   const auto begin = all.begin() + static_cast<std::ptrdiff_t>(mesh.first);
   Finding finding;
@@ -71,7 +67,7 @@ void Judge::add_finding(const Batch& batch, std::size_t first, std::size_t count
   const auto alike = std::ranges::count_if(outcome.findings, [&](const Finding& f) {
     return !f.crack && f.known == known && (f.scene.triangles.size() > 1) == torn_mesh;
   });
-  if (static_cast<std::size_t>(alike) >= kFindingsOfAKind) return;
+  if (alike >= most_findings(known)) return;
 
   Finding finding;
   finding.scene.setting = batch.scene.setting;

@@ -78,8 +78,7 @@ class Experimenter {
 
   void add_finding(const Experiment& experiment, std::span<const Piece> pieces, std::optional<WrongSample> wrong,
                    bool known) {
-    constexpr std::ptrdiff_t kFindingsOfAKind = 3;
-    if (std::ranges::count(trial_.outcome.findings, known, &Finding::known) >= kFindingsOfAKind) return;
+    if (std::ranges::count(trial_.outcome.findings, known, &Finding::known) >= most_findings(known)) return;
     const std::size_t base = pieces.front().base;
     const Triangle& triangle = experiment.base.triangles[base];
     const MaskLayout layout(experiment.base.setting);
