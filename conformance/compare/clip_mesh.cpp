@@ -35,8 +35,10 @@ struct Corner {
   Vector at;
   bool border;  ///< whether the edge that begins here borders on nothing
 };
-// A triangle that six planes have cut.
-using Polygon = boost::container::static_vector<Corner, 9>;
+// A triangle that six planes have cut. Of n corners, k inside, a cut leaves these and a new one wherever an edge
+// crosses the plane, at most 2 min(k, n - k) times, should rounding have bent the polygon: 3n/2 in all, and so 4, 6, 9,
+// 13, 19, 28.
+using Polygon = boost::container::static_vector<Corner, 28>;
 
 // The position's 128 bits as a point, so that edges can be compared as those of a grid are; -0 as 0.
 GridPoint as_point(const ClipPosition& p) {
@@ -250,7 +252,7 @@ struct Range {
   int end;
 };
 
-// Those of `all` of which the one point that matters lies in `points`, given from its place in a pixel on.
+// Those of `all` whose sample lies in `points`, of which the sample's place in its pixel has been taken away.
 Range pixels_between(const Range& all, const Interval& points) {
   const double first = std::clamp<double>(std::ceil(points.from), all.first, all.end);
   return {static_cast<int>(first), static_cast<int>(std::clamp<double>(std::floor(points.to) + 1, first, all.end))};
