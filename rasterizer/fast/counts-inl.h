@@ -44,27 +44,16 @@ HWY_INLINE std::uint64_t count_medium(const StoredSetup& s, std::size_t lane, in
 }
 
 /// Of any triangle.
-inline std::uint64_t count_large(const FixedTriangle<ShiftedFormat>& triangle, int width, int height) {
-  Point v[3];
-  for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value(), triangle[i].y.value()};
-  sort_by_y(v[0], v[1]);
-  sort_by_y(v[1], v[2]);
-  sort_by_y(v[0], v[1]);
-  const auto first_row = [&](const Point& p) { return std::clamp((p.y + 127) >> 8, 0, height); };
-  const int top = first_row(v[0]), middle = first_row(v[1]), bottom = first_row(v[2]);
-  if (top >= bottom) return 0;
+inline std::uint64_t count_halves(const Halves& halves, int width) {
+  const auto in_target = [&](std::int64_t t) { return std::clamp<std::int64_t>(t >> kFractionBits, 0, width); };
   std::int64_t sum = 0;
-  const auto count_rows = [&](Crossings& longer, Crossings shorter, int rows) {
-    const auto in_target = [&](std::int64_t t) { return std::clamp<std::int64_t>(t >> kFractionBits, 0, width); };
-    std::int64_t difference = 0;  // of one sign in all rows, as the edges do not cross
-    for (int row = 0; row < rows; ++row, longer.skip(1), shorter.skip(1)) {
-      difference += in_target(longer.t) - in_target(shorter.t);
+  for (const Halves::Half* half : {&halves.upper, &halves.lower}) {
+    if (half->begin >= half->end) continue;
+    Crossings left = half->left, right = half->right;
+    for (int row = half->begin; row < half->end; ++row, left.skip(1), right.skip(1)) {
+      sum += in_target(right.t) - in_target(left.t);
     }
-    sum += difference < 0 ? -difference : difference;
-  };
-  Crossings longer(v[0], v[2], top, bottom - top);
-  if (top < middle) count_rows(longer, Crossings(v[0], v[1], top, middle - top), middle - top);
-  if (middle < bottom) count_rows(longer, Crossings(v[1], v[2], middle, bottom - middle), bottom - middle);
+  }
   return static_cast<std::uint64_t>(sum);
 }
 
@@ -92,10 +81,16 @@ HWY_INLINE void count_plane(const SnappedTriangle* triangles, const LaneSetup& s
   if (ways.others == 0) return;
   StoredSetup stored;
   if ((ways.others & ways.medium) != 0) store(setup, stored);
-  for (std::uint64_t lanes = ways.others; lanes != 0; lanes &= lanes - 1) {
+  for (std::uint64_t lanes = ways.others & ways.medium; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-    counts[lane] += ways.medium >> lane & 1 ? count_medium(stored, lane, width, height)
-                                            : count_large(planes.shifted(triangles[lane], plane), width, height);
+    counts[lane] += count_medium(stored, lane, width, height);
+  }
+  std::uint64_t large = ways.others & ~ways.medium;
+  if (large == 0) return;
+  const LaneHalves halves = halves_of(triangles, planes, plane, width, height);
+  for (; large != 0; large &= large - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(large));
+    counts[lane] += count_halves(halves.of(lane), width);
   }
 }
 

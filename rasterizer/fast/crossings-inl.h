@@ -24,27 +24,10 @@ inline constexpr int kFractionBits = 44;
 inline constexpr int kStripBits = 5;
 static_assert(1 << kStripBits == kStripWidth);
 
-struct Point {
-  std::int32_t x;
-  std::int32_t y;
-};
-
 /// The crossings of an edge with rows, from some row on.
 struct Crossings {
   std::int64_t t;      ///< in that row
   std::int64_t slope;  ///< from row to row
-
-  Crossings() = default;
-  /// `rows`: how many of them will be asked for, at least one.
-  Crossings(const Point& a, const Point& b, int row, int rows) {
-    const std::int64_t dx = b.x - a.x;
-    const std::int64_t dy = b.y - a.y;
-    const std::int64_t n = dy * (a.x - 128) + dx * (std::int64_t{row} * 256 + 128 - a.y);
-    const std::int64_t c = (n + 255) >> 8;
-    const double scale = 0x1p44 / static_cast<double>(2 * dy);
-    t = static_cast<std::int64_t>(static_cast<double>(2 * c - 1 + 2 * dy) * scale);
-    slope = rows > 1 ? static_cast<std::int64_t>(static_cast<double>(2 * dx) * scale) : 0;
-  }
 
   /// In unsigned arithmetic, as what lies beyond the edge's end may wrap.
   void skip(int rows) {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 HWY_BEFORE_NAMESPACE();
 namespace edgecase::rasterizer::HWY_NAMESPACE {
@@ -118,6 +119,8 @@ HWY_INLINE void first_in_plane(const SnappedTriangle* triangles, const LaneSetup
   hn::Store(hn::ShiftRight<5>(hn::Add(setup.right, hn::Set(d, kStripWidth - 1))), d, end_strip);
   hn::Store(setup.top, d, top);
   hn::Store(setup.bottom, d, bottom);
+  std::optional<LaneHalves> halves;
+  if ((ways.others & ~block) != 0) halves.emplace(halves_of(triangles, planes, plane, width, scratch.height));
   // In the order of the list, whatever their sizes.
   for (std::uint64_t lanes = small | ways.others; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -128,7 +131,7 @@ HWY_INLINE void first_in_plane(const SnappedTriangle* triangles, const LaneSetup
       continue;
     }
     const auto triangle = planes.shifted(triangles[lane], plane);
-    draw_halves(halves_of(triangle, width, scratch.height), scratch);
+    draw_halves(halves->of(lane), scratch);
     const StripBox box(triangle, width, scratch.height);
     std::uint32_t* own = scratch.words + static_cast<std::size_t>(box.first_strip) * scratch.stride + box.top;
     take_first(box, own, scratch.stride, columns, own_number, to);

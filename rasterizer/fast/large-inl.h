@@ -1,6 +1,7 @@
 // Triangles of any size: the rows from the top to the middle vertex, then those to the bottom one; in bands of rows
 // where all of it is on the target and not too large.
 #include "rasterizer/fast/bands-inl.h"
+#include "rasterizer/fast/halves-inl.h"
 
 #if defined(EDGECASE_FAST_LARGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGECASE_FAST_LARGE_INL_H_
@@ -108,55 +109,6 @@ inline void draw_anywhere(Crossings left, Crossings right, int row, int end, con
     left_rows.skip();
     right_rows.skip();
   }
-}
-
-/// Without a branch: which of two vertices is above the other cannot be predicted.
-HWY_INLINE void sort_by_y(Point& a, Point& b) {
-  const std::int32_t exchange = b.y < a.y ? -1 : 0;
-  const std::int32_t x = (a.x ^ b.x) & exchange, y = (a.y ^ b.y) & exchange;
-  a = {a.x ^ x, a.y ^ y};
-  b = {b.x ^ x, b.y ^ y};
-}
-
-/// A triangle above and below its middle vertex: rows that one left and one right edge cross, none or more of each.
-struct Halves {
-  struct Half {
-    Crossings left, right;  ///< from row `begin` on, if that is before `end`
-    int begin, end;
-  };
-  Half upper, lower;
-  bool in_bands;  ///< how they are to be drawn
-};
-
-/// Of a triangle on a target of `width` by `height` pixels.
-HWY_INLINE Halves halves_of(const FixedTriangle<ShiftedFormat>& triangle, int width, int height) {
-  Point v[3];
-  for (std::size_t i = 0; i < 3; ++i) v[i] = {triangle[i].x.value(), triangle[i].y.value()};
-  sort_by_y(v[0], v[1]);
-  sort_by_y(v[1], v[2]);
-  sort_by_y(v[0], v[1]);
-  const auto first_row = [&](const Point& p) { return std::clamp((p.y + 127) >> 8, 0, height); };
-  Halves halves;
-  const int top = halves.upper.begin = first_row(v[0]);
-  const int middle = halves.upper.end = halves.lower.begin = first_row(v[1]);
-  const int bottom = halves.lower.end = first_row(v[2]);
-  const std::int32_t leftmost = std::min(std::min(v[0].x, v[1].x), v[2].x);
-  const std::int32_t rightmost = std::max(std::max(v[0].x, v[1].x), v[2].x);
-  halves.in_bands = leftmost >= 0 && rightmost <= width * 256 && rightmost - leftmost <= kMostBandExtent * 256 &&
-                    v[2].y - v[0].y <= kMostBandHeight;
-  if (top >= bottom) return halves;
-  // Which of the edges is left; where they lie in one line it does not matter.
-  const bool longer_is_left =
-      std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y) < std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y);
-  const auto set = [&](Halves::Half& half, const Crossings& longer, const Crossings& shorter) {
-    half.left = longer_is_left ? longer : shorter;
-    half.right = longer_is_left ? shorter : longer;
-  };
-  Crossings longer(v[0], v[2], top, bottom - top);
-  if (top < middle) set(halves.upper, longer, Crossings(v[0], v[1], top, middle - top));
-  longer.skip(middle - top);
-  if (middle < bottom) set(halves.lower, longer, Crossings(v[1], v[2], middle, bottom - middle));
-  return halves;
 }
 
 /// Never inlined, so that its code is the same whoever calls it.

@@ -120,10 +120,14 @@ HWY_INLINE LaneSlope make_lane_slope(I32 xa, I32 ya, I32 xb, I32 yb) {
   return {dx, dy, hn::ConvertTo(DF32(), hn::Add(dx, dx)), hn::Div(hn::Set(DF32(), 1.0f), doubled)};
 }
 
-HWY_INLINE LaneTriangle make_lane_triangle(LaneVertices v) {
+HWY_INLINE void sort_by_y(LaneVertices& v) {
   sort_by_y(v.x[0], v.y[0], v.x[1], v.y[1]);
   sort_by_y(v.x[1], v.y[1], v.x[2], v.y[2]);
   sort_by_y(v.x[0], v.y[0], v.x[1], v.y[1]);
+}
+
+HWY_INLINE LaneTriangle make_lane_triangle(LaneVertices v) {
+  sort_by_y(v);
   LaneTriangle t;
   for (std::size_t i = 0; i < 3; ++i) t.x[i] = v.x[i], t.y[i] = v.y[i];
   t.leftmost = hn::Min(hn::Min(v.x[0], v.x[1]), v.x[2]);

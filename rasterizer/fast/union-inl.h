@@ -137,23 +137,27 @@ HWY_INLINE std::uint64_t block_lanes(const LaneSetup& s, I32 is_inside, std::uin
 inline constexpr int kWorthLanes = kLanes * 3 / 4;
 static_assert(kSmallRows <= kBlockRows && kSmallColumns + kStripWidth - 1 <= kBlockColumns);
 
-/// Draws the triangles in `lanes`, as draw_plane() does. They are set up together, so that their edges are known when
-/// drawing begins: until then the processor goes on with a guess at how many strips they have. Never inlined, so that
-/// smaller triangles have the registers.
+/// The vertices are loaded and sorted once more: kept from setup, they would take registers from smaller triangles.
+template <class Planes>
+HWY_INLINE LaneHalves halves_of(const SnappedTriangle* triangles, const Planes& planes, int plane, int width,
+                                int height) {
+  LaneVertices v = load_vertices(triangles);
+  sort_by_y(v);
+  const auto shift = planes.shift(plane);
+  for (std::size_t i = 0; i < 3; ++i) v.x[i] = shift.x(v.x[i]), v.y[i] = shift.y(v.y[i]);
+  return LaneHalves(v, width, height);
+}
+
+/// Draws the triangles in `lanes`, as draw_plane() does. Never inlined, so that smaller triangles have the registers.
 template <class Planes>
 HWY_NOINLINE void draw_large(const SnappedTriangle* triangles, std::uint64_t lanes, const Planes& planes, int plane,
                              int width, std::size_t apart, const Strips& strips) {
-  Halves halves[kLanes];
-  std::size_t count = 0;
-  for (std::uint64_t rest = lanes; rest != 0; rest &= rest - 1) {
-    const SnappedTriangle& triangle = triangles[std::countr_zero(rest)];
-    halves[count++] = halves_of(planes.shifted(triangle, plane), width, strips.height);
-  }
-  count = 0;
-  for (std::uint64_t rest = lanes; rest != 0; rest &= rest - 1) {
+  const LaneHalves halves = halves_of(triangles, planes, plane, width, strips.height);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     Strips own = strips;
-    own.words += static_cast<std::size_t>(std::countr_zero(rest)) * apart;
-    draw_halves(halves[count++], own);
+    own.words += lane * apart;
+    draw_halves(halves.of(lane), own);
   }
 }
 
