@@ -49,7 +49,7 @@ struct Sample {
 
 /// Some triangles of a list, equally far apart, and of how many each is one. Those that miss the target are left out.
 struct Samples {
-  static constexpr std::size_t kMost = 64;
+  static constexpr std::size_t kMost = 32;
   std::array<Sample, kMost> samples;
   std::size_t size = 0;
   std::size_t looked_at = 0;
@@ -68,8 +68,17 @@ Samples sample(std::span<const Triangle> triangles, const Target& target, std::s
   Samples list;
   list.looked_at = std::max<std::size_t>(count, 1);
   list.each = static_cast<double>(triangles.size()) / static_cast<double>(std::max<std::size_t>(count, 1));
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& [a, b, c] = triangles[triangles.size() * i / count];
+  // Sample i is triangle triangles.size() * i / count, found without a division each.
+  const std::size_t step = triangles.size() / list.looked_at, rest = triangles.size() % list.looked_at;
+  std::size_t at = 0, over = 0;
+  const auto move = [&] {
+    over += rest;
+    const bool carries = over >= count;
+    over -= carries ? count : 0;
+    at += step + (carries ? 1 : 0);
+  };
+  for (std::size_t i = 0; i < count; ++i, move()) {
+    const auto& [a, b, c] = triangles[at];
     const int ax = a.x.value(), ay = a.y.value(), bx = b.x.value(), by = b.y.value(), cx = c.x.value(),
               cy = c.y.value();
     Sample s{i,
@@ -207,7 +216,7 @@ std::size_t chunk_of_whole(std::size_t triangles, std::size_t threads) {
 /// Of a single tile. Samples are evenly spread over the list, but for those that are nowhere on the target.
 Parts parts_of_whole(const Samples& samples, std::size_t chunks, std::size_t threads) {
   // One triangle says little about those around it, and several tell a list sorted by size.
-  const std::size_t samples_of_stretch = samples.each > 1 ? 8 : 1;
+  const std::size_t samples_of_stretch = samples.each > 1 ? 4 : 1;
   std::array<double, Samples::kMost> work;
   const auto stretches = std::span(work).first((samples.looked_at + samples_of_stretch - 1) / samples_of_stretch);
   std::ranges::fill(stretches, kSetup);
@@ -277,13 +286,15 @@ Plan make_plan(std::span<const Triangle> triangles, const Target& target, int th
   const Samples samples = sample(triangles, target, Samples::kMost);
   const double one_thread = one_thread_time(samples, target);
   const TileGrid whole(target, 1, 1);
-  const Plan alone{
-      whole, 1, std::max<std::size_t>(triangles.size(), 1), Parts::even(1, 1), {one_thread}, one_thread, one_thread, 0};
+  const auto alone = [&] {
+    return Plan{whole,      1, std::max<std::size_t>(triangles.size(), 1), Parts::even(1, 1), {one_thread}, one_thread,
+                one_thread, 0};
+  };
   threads = static_cast<int>(std::min(static_cast<double>(threads), one_thread / kLeastWork));
-  if (threads <= 1 || one_thread < least_to_share(target, threads)) return alone;
+  if (threads <= 1 || one_thread < least_to_share(target, threads)) return alone();
   const auto [grid, sum] = best_grid(samples, triangles.size(), target, threads);
   Plan plan = finish_plan(samples, triangles.size(), grid, threads, sum, one_thread);
-  return is_less(plan.estimate, one_thread) ? plan : alone;
+  return is_less(plan.estimate, one_thread) ? plan : alone();
 }
 
 }  // namespace edgecase::rasterizer
