@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include "conformance/oracle/oracle.h"
@@ -47,17 +46,14 @@ tl::expected<void, Error> Reference::expect(std::uint64_t first_index, MaskBatch
 const Scene* Reference::one_for_each() {
   if (!window_) return scene_;
   const WindowScene& w = *window_;
-  const auto is_more = [&](std::size_t i) {
-    return w.parts_of(i) > 1 || (w.parts_of(i) == 1 && w.takes_away[w.first[i]]);
-  };
   if (!w.unpredicted.empty() || !w.region.is_whole()) return nullptr;
-  if (std::ranges::any_of(std::views::iota(std::size_t{0}, w.size()), is_more)) return nullptr;
-  if (w.scene.triangles.size() == w.size()) return &w.scene;
   one_for_each_.setting = w.scene.setting;
   one_for_each_.rules = w.scene.rules;
   one_for_each_.triangles.assign(w.size(), Triangle{});  // without area
   for (std::size_t i = 0; i < w.size(); ++i) {
-    if (w.parts_of(i) == 1) one_for_each_.triangles[i] = w.scene.triangles[w.first[i]];
+    if (w.parts_of(i) == 0) continue;
+    if (w.parts_of(i) > 1 || w.takes_away[w.first[i]]) return nullptr;
+    one_for_each_.triangles[i] = w.scene.triangles[w.first[i]];
   }
   return &one_for_each_;
 }
