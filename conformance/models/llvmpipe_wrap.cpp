@@ -119,8 +119,8 @@ class Tile {
  private:
   static constexpr int kSampled = 4;  ///< the side of blocks of which the samples are asked
 
-  /// Of an edge whose value's 32-bit sign is the same at all four corners of the block, that of all samples is, as long
-  /// as no further wrap lies between: if all bits from the sign's on are.
+  /// An edge has the same sign in 32 bits at every sample if its value's bits from that one on are the same in the
+  /// block's corners where it is least and greatest.
   void draw_samples(const Edges& edges, int x, int y) {
     constexpr int kSignBit = 31 + kSubpixelBits;
     const int columns = std::min(kSampled, setting_.target.width - x);

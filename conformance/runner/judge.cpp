@@ -12,11 +12,13 @@
 namespace edgecase::conformance {
 namespace {
 
-// The first sample in which one mask is not what is predicted.
-std::optional<WrongSample> first_wrong(const MaskLayout& layout, MaskView predicted, MaskView observed,
+// The first sample in which that triangle's mask is not what is predicted, but for those left open.
+std::optional<WrongSample> first_wrong(const Batch& batch, MaskView predicted, MaskView observed,
                                        std::size_t triangle) {
+  const MaskView may =
+      batch.may.empty() ? MaskView{} : MaskView(batch.may).subspan(triangle * predicted.size(), predicted.size());
   Comparison comparison;
-  compare_masks(layout, predicted, {}, observed, triangle, comparison);
+  compare_masks(MaskLayout(batch.scene.setting), predicted, may, observed, triangle, comparison);
   return comparison.first;
 }
 
@@ -124,7 +126,7 @@ tl::expected<void, Error> Judge::judge_triangles(const Batch& batch, Outcome& ou
       add_finding(batch, i, 1, *next_wrong++, known, outcome);
     } else if (!known) {
       // Right where it is predicted to be wrong: the prediction, or the subject, is no longer what it was.
-      const auto obsolete = first_wrong(MaskLayout(batch.scene.setting), predicted_, observed_[i], i);
+      const auto obsolete = first_wrong(batch, predicted_, observed_[i], i);
       if (!obsolete) continue;
       ++outcome.unexplained;
       ++outcome.obsolete;
