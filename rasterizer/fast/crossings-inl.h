@@ -14,7 +14,6 @@
 #define EDGECASE_FAST_CROSSINGS_INL_H_
 #endif
 
-#include <algorithm>
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();

@@ -42,8 +42,12 @@ HWY_INLINE F64 widened(I32 v, [[maybe_unused]] std::size_t half) {
 #endif
 }
 
+using Difference = decltype(ShiftedFormat::Coordinate() - ShiftedFormat::Coordinate());
+static_assert(Difference::kBits <= 32);
+static_assert(decltype(Difference() * Difference() + Difference() * Difference())::kBits <= 54);
+
 /// The Halves of kLanes triangles, a triangle to a lane. In binary64: all numbers but the scale, t and the slope of an
-/// edge are integers below 2^53, or such by 2^8, and exact.
+/// edge are integers of at most 53 bits and a sign, or such by 2^8, and exact.
 class LaneHalves {
  public:
   /// Of vertices sorted by y.

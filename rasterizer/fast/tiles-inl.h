@@ -21,18 +21,7 @@ struct TilePlane {
 
   static constexpr int count() { return 1; }
   static constexpr std::size_t words_before(int) { return 0; }
-  HWY_INLINE Shift shift(int) const {
-    const PlaneShift by = plane_shift();
-    return {hn::Set(DI32(), by.x.value()), hn::Set(DI32(), by.y.value())};
-  }
-  FixedTriangle<ShiftedFormat> shifted(const SnappedTriangle& triangle, int) const {
-    return rasterizer::shifted(triangle, plane_shift());
-  }
-
- private:
-  PlaneShift plane_shift() const {
-    return {*PlaneShift::Coordinate::checked(-tile.left * 256), *PlaneShift::Coordinate::checked(-tile.top * 256)};
-  }
+  HWY_INLINE Shift shift(int) const { return {hn::Set(DI32(), -tile.left * 256), hn::Set(DI32(), -tile.top * 256)}; }
 };
 
 /// What is small may lie on the margins; it begins before the tile ends.
