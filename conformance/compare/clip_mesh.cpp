@@ -7,15 +7,17 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "conformance/compare/outline.h"
 #include "conformance/compare/row_bits.h"
+#include "conformance/compare/row_intervals.h"
 
 namespace edgecase::conformance {
 namespace {
+
+using namespace rows;
 
 // (x, y, z, w) in binary64.
 using Vector = std::array<double, 4>;
@@ -136,116 +138,6 @@ std::optional<double> error_of(const Seen& seen, int subpixel_bits, const Viewpo
   return error < 1 ? std::optional(error) : std::nullopt;
 }
 
-struct Point {
-  double x;
-  double y;
-};
-
-// From where to where on one row; nothing if that is the wrong way round.
-struct Interval {
-  double from;
-  double to;
-
-  Interval grown(double by) const { return {from - by, to + by}; }
-  friend Interval meet(const Interval& a, const Interval& b) {
-    return {std::max(a.from, b.from), std::min(a.to, b.to)};
-  }
-};
-constexpr double kEverywhere = std::numeric_limits<double>::infinity();
-constexpr Interval kNowhere{kEverywhere, -kEverywhere};
-
-// More than what rounding can do to a point of the window, and much less than a border's error.
-constexpr double kRounding = 0x1p-20;
-
-Interval extent(std::span<const Point> points, double Point::*of) {
-  const auto [least, greatest] = std::ranges::minmax(points, {}, of);
-  return {least.*of, greatest.*of};
-}
-
-// An edge, from its upper end down if it has one, so that neighbours see the same.
-struct Line {
-  Point upper;
-  Point lower;
-
-  Line(const Point& a, const Point& b) : upper(a.y <= b.y ? a : b), lower(a.y <= b.y ? b : a) {}
-  double slope() const { return (lower.x - upper.x) / (lower.y - upper.y); }
-};
-
-// A convex polygon, row by row.
-class Rows {
- public:
-  explicit Rows(std::span<const Point> polygon)
-      : x_(extent(polygon, &Point::x).grown(kRounding)), y_(extent(polygon, &Point::y)) {
-    double area = 0;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Point& a = polygon[k];
-      const Point& b = polygon[(k + 1) % polygon.size()];
-      area += (a.x - polygon[0].x) * (b.y - polygon[0].y) - (a.y - polygon[0].y) * (b.x - polygon[0].x);
-      if (a.y != b.y) sides_.push_back({Line(a, b), Line(a, b).slope(), b.y > a.y});
-    }
-    has_area_ = area != 0;
-    for (Side& side : sides_) side.bounds_right ^= area < 0;
-  }
-
-  const Interval& y() const { return y_; }
-
-  // What it holds of a row, border and kRounding included. Beyond the polygon's box, where lines that nearly meet could
-  // go on together, it holds nothing.
-  Interval at(double y) const {
-    if (!has_area_ || y < y_.from || y > y_.to) return kNowhere;
-    Interval result = x_;
-    for (const auto& [line, slope, bounds_right] : sides_) {
-      const double x = line.upper.x + slope * (y - line.upper.y);
-      if (bounds_right) {
-        result.to = std::min(result.to, x + kRounding);
-      } else {
-        result.from = std::max(result.from, x - kRounding);
-      }
-    }
-    return result;
-  }
-
- private:
-  struct Side {
-    Line line;
-    double slope;
-    bool bounds_right;
-  };
-  Interval x_;
-  Interval y_;
-  boost::container::static_vector<Side, Polygon::static_capacity> sides_;
-  bool has_area_ = false;
-};
-
-// All around an edge: of its bounding box, grown by `reach`, what a square of that size may touch the line from.
-class Around {
- public:
-  Around(const Point& a, const Point& b, double reach)
-      : line_(a, b),
-        x_(extent(std::array{a, b}, &Point::x).grown(reach)),
-        y_(extent(std::array{a, b}, &Point::y).grown(reach)) {
-    const double width = std::abs(b.x - a.x), height = line_.lower.y - line_.upper.y;
-    if (height == 0) return;
-    slope_ = line_.slope();
-    half_ = reach * (width + height) / height + kRounding;
-  }
-
-  const Interval& y() const { return y_; }
-
-  Interval at(double y) const {
-    if (y < y_.from || y > y_.to) return kNowhere;
-    const double x = line_.upper.x + slope_ * (y - line_.upper.y);
-    return meet(x_, {x - half_, x + half_});
-  }
-
- private:
-  Line line_;
-  Interval x_;
-  Interval y_;
-  double slope_ = 0;
-  double half_ = kEverywhere;  ///< of its width on a row, as far as its box allows
-};
-
 // Pixels first .. end - 1 of one axis; none if they are equal.
 struct Range {
   int first;
@@ -347,7 +239,7 @@ bool certainly_inside(const Setting& setting, int subpixel_bits, const Viewport&
   const auto error = error_of(visible, subpixel_bits, viewport);
   if (!error) return false;
   const Samples samples(setting, viewport);
-  std::vector<Around> borders;
+  std::vector<EdgeRows> borders;
   boost::container::static_vector<Point, Polygon::static_capacity> points;
   for (const Polygon& polygon : visible.polygons) {
     points.clear();
@@ -358,10 +250,10 @@ bool certainly_inside(const Setting& setting, int subpixel_bits, const Viewport&
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (polygon[k].border) borders.emplace_back(points[k], points[(k + 1) % points.size()], *error);
     }
-    samples.in(Rows({points.data(), points.size()}),
+    samples.in(PolygonRows<Polygon::static_capacity>({points.data(), points.size()}),
                [&](std::size_t word, std::uint64_t bits) { inside[word] |= bits; });
   }
-  for (const Around& border : borders) {
+  for (const EdgeRows& border : borders) {
     samples.in(border, [&](std::size_t word, std::uint64_t bits) { inside[word] &= ~bits; });
   }
   return true;

@@ -10,7 +10,7 @@
 
 namespace edgecase::conformance {
 
-/// What an exact rasterizer covers behind that transform, by the oracle: mask i is that of the scene's triangle i, and
+/// What an exact rasterizer, ours, covers behind that transform: mask i is that of the scene's triangle i, and
 /// means nothing for the triangles listed in `unpredicted` of the result.
 WindowScene predict(const TransformModel& model, const Scene& scene, MaskBatch& masks);
 
