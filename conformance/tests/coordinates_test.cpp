@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "conformance/scene/grid.h"
+#include "conformance/scene/nearest_even.h"
 #include "conformance/subjects/enclosing_viewport.h"
 
 namespace edgecase::conformance {
@@ -60,6 +63,25 @@ TEST(Coordinates, AViewportCarriesAllIfItCarriesEach) {
   for (const float value : {0.0f, 8192.0f, -8192.0f, std::nextafter(8192.0f, 9000.0f), 0.1f, least, -least,
                             std::nextafter(least, 0.0f), kNan, kInfinity, std::numeric_limits<float>::denorm_min()}) {
     EXPECT_EQ(viewport.carries(with(3, 11, value)), viewport.carries(value)) << value;
+  }
+}
+
+TEST(NearestEven, IsWhatTheLibraryRoundsToBitForBit) {
+  const auto expect = [](float value) {
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(nearest_even(value)), std::bit_cast<std::uint32_t>(std::nearbyint(value)))
+        << value;
+  };
+  std::mt19937 random(1);
+  for (int i = 0; i < 1'000'000; ++i) {
+    const auto pattern = static_cast<std::uint32_t>(random());
+    if (std::isfinite(std::bit_cast<float>(pattern))) expect(std::bit_cast<float>(pattern));
+  }
+  for (int half = -20'000; half <= 20'000; ++half) {
+    const float tie = static_cast<float>(half) / 2;
+    for (const float value : {tie, std::nextafter(tie, kInfinity), std::nextafter(tie, -kInfinity)}) expect(value);
+  }
+  for (const float limit : {0x1p22F, -0x1p22F, 0x1p23F, -0x1p23F}) {
+    for (const float value : {limit, std::nextafter(limit, 0.0F), std::nextafter(limit, 2 * limit)}) expect(value);
   }
 }
 
